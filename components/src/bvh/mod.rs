@@ -1,0 +1,173 @@
+//! The bounding-volume tree: eight children a node, over bounds alone.
+//!
+//! The tree knows no shape. Whoever builds it keeps the things it bounds in [`Bvh::order`] and tests them in the leaf
+//! callback; a mesh does so for its triangles, the acceleration system for all objects of a scene.
+//!
+//! Boxes are `f32`, rounded outward, and the traversal's own rounding is bounded on the safe side, so a walk visits
+//! every leaf whose contents an exact test would hit: the tree can cost time, never change a picture.
+
+mod build;
+mod traverse;
+
+use crate::{math, space::Bounds};
+use glam::DVec3;
+
+/// Children of a node.
+pub const WIDTH: usize = 8;
+
+/// Most things in one leaf.
+pub const MAX_LEAF: usize = 16;
+
+/// Most things in one tree.
+pub const MAX_LEN: usize = 1 << 27;
+
+/// A box of `f32` around a box of `f64`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Box32 {
+    /// Least coordinates, rounded down.
+    pub min: [f32; 3],
+    /// Greatest coordinates, rounded up.
+    pub max: [f32; 3],
+}
+
+impl Box32 {
+    /// The box that holds nothing.
+    pub const EMPTY: Self = Self { min: [f32::INFINITY; 3], max: [f32::NEG_INFINITY; 3] };
+
+    /// The smallest `f32` box around `bounds`.
+    #[must_use]
+    pub fn around(bounds: &Bounds) -> Self {
+        Self { min: bounds.min.to_array().map(math::f32_below), max: bounds.max.to_array().map(math::f32_above) }
+    }
+
+    /// The smallest box around three `f32` points.
+    #[must_use]
+    pub fn of_triangle(vertices: &[[f32; 3]; 3]) -> Self {
+        vertices.iter().fold(Self::EMPTY, |b, v| b.union(&Self { min: *v, max: *v }))
+    }
+
+    #[inline]
+    pub(crate) fn union(&self, other: &Self) -> Self {
+        let lower = |a: f32, b: f32| if b < a { b } else { a };
+        let upper = |a: f32, b: f32| if b > a { b } else { a };
+        Self {
+            min: core::array::from_fn(|i| lower(self.min[i], other.min[i])),
+            max: core::array::from_fn(|i| upper(self.max[i], other.max[i])),
+        }
+    }
+
+    /// Half the surface area; `f64`, which no `f32` box overflows.
+    #[inline]
+    fn half_area(&self) -> f64 {
+        let [x, y, z] = core::array::from_fn(|i| f64::from(self.max[i]) - f64::from(self.min[i]));
+        if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
+    }
+
+    /// Twice the centre along an axis.
+    #[inline]
+    fn center2(&self, axis: usize) -> f32 {
+        // Halved first: the sum of two extremes would overflow.
+        self.min[axis] * 0.5 + self.max[axis] * 0.5
+    }
+}
+
+/// One node: the boxes of its children as a structure of arrays.
+#[derive(Clone, Debug)]
+#[repr(C, align(64))]
+struct Node {
+    min: [[f32; WIDTH]; 3],
+    max: [[f32; WIDTH]; 3],
+    child: [Child; WIDTH],
+}
+
+impl Node {
+    const EMPTY: Self =
+        Self { min: [[f32::INFINITY; WIDTH]; 3], max: [[f32::NEG_INFINITY; WIDTH]; 3], child: [Child(0); WIDTH] };
+}
+
+/// A child: a node by index, or a leaf as a run of [`Bvh::order`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Child(u32);
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+
+    fn node(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    fn leaf(first: usize, len: usize) -> Self {
+        debug_assert!((1..=MAX_LEAF).contains(&len) && first < MAX_LEN);
+        Self(Self::LEAF | ((len - 1) as u32) << 27 | first as u32)
+    }
+
+    #[inline]
+    fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
+    }
+
+    #[inline]
+    fn run(self) -> core::ops::Range<usize> {
+        let first = (self.0 & (MAX_LEN as u32 - 1)) as usize;
+        first..first + ((self.0 >> 27) & 15) as usize + 1
+    }
+
+    /// The same child in a tree whose nodes are stored `nodes` further on.
+    fn shifted(self, nodes: usize) -> Self {
+        if self.is_leaf() { self } else { Self(self.0 + nodes as u32) }
+    }
+}
+
+/// A tree over boxes.
+#[derive(Clone, Debug)]
+pub struct Bvh {
+    nodes: Vec<Node>,
+    order: Vec<u32>,
+}
+
+impl Bvh {
+    /// The things in leaf order, by their index among the boxes the tree was built from.
+    #[must_use]
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// The leaves as runs of [`Bvh::order`], in order.
+    pub fn leaves(&self) -> impl Iterator<Item = core::ops::Range<usize>> {
+        let mut leaves: Vec<_> = self
+            .nodes
+            .iter()
+            .flat_map(|node| node.child.iter().enumerate().filter(|(i, _)| node.min[0][*i] != f32::INFINITY))
+            .filter(|(_, child)| child.is_leaf())
+            .map(|(_, child)| child.run())
+            .collect();
+        leaves.sort_by_key(|run| run.start);
+        leaves.into_iter()
+    }
+
+    /// The boxes of the root's children: up to eight that together hold everything.
+    pub fn top_boxes(&self) -> impl Iterator<Item = Bounds> {
+        self.nodes
+            .first()
+            .into_iter()
+            .flat_map(|root| {
+                (0..WIDTH).map(|lane| Bounds {
+                    min: DVec3::from_array([0, 1, 2].map(|axis| f64::from(root.min[axis][lane]))),
+                    max: DVec3::from_array([0, 1, 2].map(|axis| f64::from(root.max[axis][lane]))),
+                })
+            })
+            .filter(|bounds| bounds.min.x <= bounds.max.x)
+    }
+
+    /// Count of nodes.
+    #[must_use]
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Bytes the tree occupies.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.nodes.len() * size_of::<Node>() + self.order.len() * size_of::<u32>()
+    }
+}

@@ -1,0 +1,59 @@
+//! The data of a scene: what exists, before anything happens to it.
+//!
+//! Every module holds plain components and the arithmetic that belongs to them; nothing here reads files, schedules
+//! work or knows what other components exist. A new shape needs only this crate:
+//!
+//! ```
+//! use snell_components::{describe::{Describe, FieldVisitor, Spec}, shape::Sphere};
+//!
+//! let mut ball = Sphere { radius: 2.0 };
+//! // One description serves scene files, editors and bindings alike.
+//! struct Names(Vec<&'static str>);
+//! # use snell_components::describe::Value;
+//! impl FieldVisitor for Names {
+//!     fn field(&mut self, name: &'static str, _: Value<'_>, _: Spec) { self.0.push(name) }
+//! }
+//! let mut names = Names(vec![]);
+//! ball.describe(&mut names);
+//! assert_eq!(names.0, ["radius"]);
+//! ```
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`math`] | the only door to functions beyond `+ − × ÷ √` |
+//! | [`space`], [`transform`] | rays, bounds, placement |
+//! | [`color`] | linear RGB and the sRGB transfer curve |
+//! | [`name`], [`describe`], [`asset`] | what a thing is called, how its fields are read and written, files it refers to |
+//! | [`bvh`] | the bounding-volume tree, over bounds alone |
+//! | [`primitive`] | the contract every shape meets; [`shape`] holds the built-in ones |
+//! | [`material`], [`texture`], [`light`], [`camera`], [`settings`] | what the rays meet and how the picture is taken |
+
+pub mod math;
+
+pub mod space;
+
+pub mod transform;
+
+pub mod color;
+
+pub mod name;
+
+pub mod asset;
+
+pub mod describe;
+
+pub mod bvh;
+
+pub mod primitive;
+
+pub mod shape;
+
+pub mod texture;
+
+pub mod material;
+
+pub mod light;
+
+pub mod camera;
+
+pub mod settings;

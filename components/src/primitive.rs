@@ -1,0 +1,113 @@
+//! The contract every shape meets.
+//!
+//! A new shape is one component with two trait impls, [`Describe`] for its fields and [`Primitive`] for its geometry,
+//! and one registration call; nothing else names it.
+
+use crate::{
+    describe::Describe,
+    space::{BoundingSphere, Bounds, Ray},
+};
+use bevy_ecs::{component::Mutable, prelude::*};
+use glam::{DAffine3, DVec2, DVec3};
+
+/// A shape that rays can hit.
+pub trait Primitive: Describe + Component<Mutability = Mutable> {
+    /// The read-only form that the inner loop walks; cheap to clone (large data sits behind an `Arc`).
+    type Packed: Clone + Send + Sync + 'static;
+
+    /// Makes the packed form and the bounds of the shape placed by `world_from_object`.
+    ///
+    /// The bounds must hold every point that `hit` can return, rounding included.
+    ///
+    /// # Errors
+    /// A reason why the shape has no surface to hit; it is then left out of the picture and reported.
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, Self::Packed), Degenerate>;
+
+    /// Nearest hit with `0 < t <= t_max`, by a rule that depends on nothing but its arguments.
+    fn hit(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit>;
+
+    /// Whether anything is hit with `0 < t < t_max`; must agree with `hit`.
+    fn blocks(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
+        Self::hit(packed, ray, t_max, cost).is_some_and(|hit| hit.t < t_max)
+    }
+
+    /// The surface at a hit that `hit` returned for this ray; runs once per ray, for the nearest hit only.
+    fn surface(packed: &Self::Packed, ray: &Ray, hit: Hit) -> Surface;
+
+    /// A sphere that holds the shape; by default the one about the bounds.
+    fn bounding_sphere(_packed: &Self::Packed, bounds: &Bounds) -> BoundingSphere {
+        BoundingSphere::of_bounds(bounds)
+    }
+}
+
+/// How far a shape reaches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extent {
+    /// Within a box, world space.
+    Bounded(Bounds),
+    /// To infinity; such shapes live beside the tree and are tested by every ray.
+    Unbounded,
+}
+
+/// Why a shape has no surface.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Degenerate(pub String);
+
+/// Where a ray met a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Distance in units of the ray's direction.
+    pub t: f64,
+    /// Which part of the shape: the face of a box, the triangle of a mesh; equal distances go to the lowest.
+    pub part: u32,
+}
+
+/// The surface at a hit, world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Surface {
+    /// The point, as near the true surface as the shape can say.
+    pub point: DVec3,
+    /// Unit geometric normal, outward.
+    pub normal: DVec3,
+    /// Unit normal for shading; equals `normal` where the shape is not smoothed.
+    pub shading_normal: DVec3,
+    /// Texture coordinates; images span 0..=1 with v upward.
+    pub uv: DVec2,
+    /// Which of the object's materials, for shapes that have several.
+    pub slot: u32,
+    /// Largest coordinate that entered the computation, world units: the scale of the point's rounding error.
+    pub magnitude: f64,
+}
+
+/// What tracing cost, in counts that do not depend on the machine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cost {
+    /// Tree nodes visited.
+    pub nodes: u64,
+    /// Shapes and triangles tested.
+    pub primitives: u64,
+}
+
+impl core::ops::AddAssign for Cost {
+    fn add_assign(&mut self, other: Self) {
+        self.nodes += other.nodes;
+        self.primitives += other.primitives;
+    }
+}
+
+impl Surface {
+    /// Where a ray that leaves the surface toward `direction` starts: beyond the rounding error of the point, on that
+    /// side. There is no absolute epsilon: the step is [`OFFSET_ULPS`] of the largest coordinate involved plus the
+    /// distance `travelled` to get here, both in world units.
+    #[must_use]
+    pub fn departure(&self, direction: DVec3, travelled: f64) -> DVec3 {
+        let reach = self.magnitude.max(self.point.abs().max_element()) + travelled;
+        let step = OFFSET_ULPS * f64::EPSILON * reach;
+        self.point + self.normal * if self.normal.dot(direction) < 0.0 { -step } else { step }
+    }
+}
+
+/// How many ulps of the largest coordinate a secondary ray starts away from its surface.
+///
+/// 64 gives neither self-hits nor lost contacts over scales 1e-6 to 1e6 and offsets up to 1e8 times the object's size.
+pub const OFFSET_ULPS: f64 = 64.0;

@@ -1,0 +1,436 @@
+//! `Mesh(model: "models/vase.obj")`: an indexed triangle mesh from a file; instances share its data and its tree.
+//!
+//! `shading: AsModelled` smooths the triangles whose corners have normals in the file; `Flat` smooths none; `Smooth`
+//! smooths all, with the area-weighted mean normal of the faces around each vertex where the file has none.
+
+use super::shear::RayFrame;
+use super::triangle::weights;
+use crate::{
+    asset::Asset,
+    bvh::{Box32, Bvh},
+    describe::{Describe, FieldVisitor, Spec, Value},
+    primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
+    space::{BoundingSphere, Bounds, Ray},
+};
+use bevy_ecs::prelude::*;
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+use std::sync::{Arc, OnceLock};
+
+/// Most triangles in one leaf of a mesh's tree.
+const LEAF: usize = 4;
+
+/// Index of a normal or texture coordinate that a corner does not have.
+const ABSENT: u32 = u32::MAX;
+
+/// Normals or texture coordinates, by triangle corner.
+#[derive(Clone, Debug, Default, PartialEq)]
+struct Attribute<const N: usize> {
+    values: Vec<[f32; N]>,
+    /// Per triangle; [`ABSENT`] in the first where a triangle has none. Empty if no triangle has any.
+    corners: Vec<[u32; 3]>,
+}
+
+impl<const N: usize> Attribute<N> {
+    fn of(&self, triangle: u32) -> Option<[[f64; N]; 3]> {
+        let corners = self.corners.get(triangle as usize).filter(|corners| corners[0] != ABSENT)?;
+        Some(corners.map(|i| self.values[i as usize].map(f64::from)))
+    }
+}
+
+/// The triangles of a mesh, immutable, in object space.
+///
+/// Vertices are kept as `f32`, as files hold them; every computation with them is in `f64`.
+#[derive(Debug, Default)]
+pub struct TriangleMesh {
+    positions: Vec<[f32; 3]>,
+    triangles: Vec<[u32; 3]>,
+    normals: Attribute<3>,
+    uvs: Attribute<2>,
+    slots: Vec<u16>,
+    degenerate: usize,
+    tree: OnceLock<MeshTree>,
+    smooth_normals: OnceLock<Vec<[f32; 3]>>,
+}
+
+/// The tree over a mesh's triangles, and the triangles in its leaf order.
+#[derive(Debug)]
+struct MeshTree {
+    bvh: Bvh,
+    vertices: Vec<[[f32; 3]; 3]>,
+    sphere: BoundingSphere,
+    magnitude: f64,
+}
+
+/// Why a mesh cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MeshError(String);
+
+impl core::fmt::Display for MeshError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl core::error::Error for MeshError {}
+
+impl TriangleMesh {
+    /// A mesh of triangles given by their corners' indices, counter-clockwise seen from outside.
+    ///
+    /// Triangles without area are dropped and counted.
+    ///
+    /// # Errors
+    /// An index beyond the positions, or a position of a triangle that is not finite.
+    pub fn new(positions: Vec<[f32; 3]>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+        check_indices("triangle", &triangles, positions.len())?;
+        for (i, triangle) in triangles.iter().enumerate() {
+            if let Some(v) = triangle.iter().find(|&&v| !positions[v as usize].iter().all(|x| x.is_finite())) {
+                return Err(MeshError(format!("triangle {i}: vertex {v} is not finite: {:?}", positions[*v as usize])));
+            }
+        }
+        let mut this = Self { positions, triangles, ..Self::default() };
+        this.degenerate = this.triangles.len();
+        let all = core::mem::take(&mut this.triangles);
+        this.triangles = all.into_iter().filter(|t| this.cross(*t) != DVec3::ZERO).collect();
+        this.degenerate -= this.triangles.len();
+        Ok(this)
+    }
+
+    /// The mesh with normals, textures coordinates and material slots per corner or triangle.
+    ///
+    /// Each list of corners has one entry per triangle given to [`TriangleMesh::new`] here; `None` for a triangle
+    /// without. A slot is an index into the materials of whoever shows the mesh. Triangles without area are dropped and
+    /// counted.
+    ///
+    /// # Errors
+    /// An index out of range, lists of other lengths than `triangles`, or a position, normal or coordinate of a
+    /// triangle that is not finite.
+    pub fn with_attributes(
+        positions: Vec<[f32; 3]>,
+        triangles: Vec<[u32; 3]>,
+        normals: (Vec<[f32; 3]>, Vec<Option<[u32; 3]>>),
+        uvs: (Vec<[f32; 2]>, Vec<Option<[u32; 3]>>),
+        slots: Vec<u16>,
+    ) -> Result<Self, MeshError> {
+        let count = triangles.len();
+        for (what, len) in [("normals", normals.1.len()), ("uvs", uvs.1.len()), ("slots", slots.len())] {
+            if len != 0 && len != count {
+                return Err(MeshError(format!("{what}: {len} entries for {count} triangles")));
+            }
+        }
+        let normals = attribute("normal", normals)?;
+        let uvs = attribute("texture coordinate", uvs)?;
+        let all = triangles.clone();
+        let mut this = Self::new(positions, triangles)?;
+        let kept: Vec<usize> = (0..count).filter(|&i| this.cross(all[i]) != DVec3::ZERO).collect();
+        let keep = |corners: Vec<[u32; 3]>| {
+            if corners.is_empty() { corners } else { kept.iter().map(|&i| corners[i]).collect() }
+        };
+        this.normals = Attribute { values: normals.values, corners: keep(normals.corners) };
+        this.uvs = Attribute { values: uvs.values, corners: keep(uvs.corners) };
+        if !slots.is_empty() {
+            this.slots = kept.iter().map(|&i| slots[i]).collect();
+        }
+        Ok(this)
+    }
+
+    /// Count of triangles that have an area.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.triangles.len()
+    }
+
+    /// Whether there is no triangle.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.triangles.is_empty()
+    }
+
+    /// Count of triangles dropped for having no area.
+    #[must_use]
+    pub fn degenerate(&self) -> usize {
+        self.degenerate
+    }
+
+    /// Corners of a triangle, object space.
+    ///
+    /// # Panics
+    /// If there is no such triangle.
+    #[must_use]
+    pub fn corners(&self, triangle: usize) -> [DVec3; 3] {
+        self.points(self.triangles[triangle])
+    }
+
+    /// Bytes of the mesh and its tree, if that was built.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let corners = self.triangles.len() + self.normals.corners.len() + self.uvs.corners.len();
+        let tree = self.tree.get().map_or(0, |tree| tree.bvh.bytes() + tree.vertices.len() * 36);
+        let values = (self.positions.len() + self.normals.values.len()) * 12 + self.uvs.values.len() * 8;
+        values + corners * 12 + self.slots.len() * 2 + tree
+    }
+
+    fn points(&self, corners: [u32; 3]) -> [DVec3; 3] {
+        corners.map(|i| point(self.positions[i as usize]))
+    }
+
+    /// Twice the area as a vector along the outward normal; exact zero only without area.
+    fn cross(&self, corners: [u32; 3]) -> DVec3 {
+        let [a, b, c] = self.points(corners);
+        (b - a).cross(c - a)
+    }
+
+    fn tree(&self) -> &MeshTree {
+        self.tree.get_or_init(|| {
+            let corners = |i: usize| self.triangles[i].map(|v| self.positions[v as usize]);
+            let bvh = Bvh::build((0..self.len()).map(|i| Box32::of_triangle(&corners(i))), LEAF);
+            let vertices: Vec<_> = bvh.order().iter().map(|&i| corners(i as usize)).collect();
+            let all = || vertices.iter().flatten().map(|v| point(*v));
+            let bounds = Bounds::of_points(all());
+            let sphere = BoundingSphere::about(bounds.center(), all());
+            let magnitude = bounds.min.abs().max(bounds.max.abs()).max_element();
+            MeshTree { bvh, vertices, sphere, magnitude }
+        })
+    }
+
+    /// Area-weighted mean of the face normals around each vertex; zero where they cancel.
+    fn smooth_normals(&self) -> &[[f32; 3]] {
+        self.smooth_normals.get_or_init(|| {
+            let mut sums = vec![DVec3::ZERO; self.positions.len()];
+            for &triangle in &self.triangles {
+                let cross = self.cross(triangle);
+                for v in triangle {
+                    sums[v as usize] += cross;
+                }
+            }
+            sums.into_iter().map(|sum| sum.normalize_or_zero().as_vec3().to_array()).collect()
+        })
+    }
+}
+
+fn point(v: [f32; 3]) -> DVec3 {
+    DVec3::from_array(v.map(f64::from))
+}
+
+fn check_indices(what: &str, corners: &[[u32; 3]], len: usize) -> Result<(), MeshError> {
+    let beyond = |corners: &[u32; 3]| corners.iter().copied().find(|&i| i as usize >= len);
+    match corners.iter().enumerate().find_map(|(i, c)| beyond(c).map(|index| (i, index))) {
+        Some((i, index)) => Err(MeshError(format!("{what} {i}: index {index} of {len}"))),
+        None => Ok(()),
+    }
+}
+
+fn attribute<const N: usize>(
+    what: &str,
+    (values, corners): (Vec<[f32; N]>, Vec<Option<[u32; 3]>>),
+) -> Result<Attribute<N>, MeshError> {
+    if corners.iter().all(Option::is_none) {
+        return Ok(Attribute { values: vec![], corners: vec![] });
+    }
+    let given: Vec<[u32; 3]> = corners.iter().copied().flatten().collect();
+    check_indices(what, &given, values.len())?;
+    if let Some(i) = given.iter().flatten().find(|&&i| !values[i as usize].iter().all(|x| x.is_finite())) {
+        return Err(MeshError(format!("{what} {i} is not finite")));
+    }
+    Ok(Attribute { values, corners: corners.into_iter().map(|c| c.unwrap_or([ABSENT; 3])).collect() })
+}
+
+/// Which triangles of a mesh are smoothed: the words of the field `shading`, in order.
+const SHADING: &[&str] = &["AsModelled", "Flat", "Smooth"];
+
+/// A triangle mesh from a file.
+#[derive(Component, Clone, Debug, Default)]
+pub struct Mesh {
+    /// The model.
+    pub model: Asset<TriangleMesh>,
+    /// Position in `AsModelled`, `Flat`, `Smooth`.
+    pub shading: usize,
+}
+
+impl Mesh {
+    /// A mesh made in memory, shaded as modelled.
+    #[must_use]
+    pub fn new(model: impl Into<Arc<TriangleMesh>>) -> Self {
+        Self { model: Asset::from_data(model), shading: 0 }
+    }
+
+    /// The same mesh with every triangle smoothed.
+    #[must_use]
+    pub fn smooth(self) -> Self {
+        Self { shading: 2, ..self }
+    }
+}
+
+impl Describe for Mesh {
+    const TAG: &'static str = "Mesh";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        let about = "OBJ file, relative to the scene's";
+        fields.field("model", Value::Model(&mut self.model), Spec::any(about).required());
+        fields.field("shading", Value::Choice(&mut self.shading, SHADING), Spec::any("which triangles are smoothed"));
+    }
+}
+
+/// A placed mesh as the inner loop sees it.
+#[derive(Clone, Debug)]
+pub struct PackedMesh {
+    mesh: Arc<TriangleMesh>,
+    placed: Arc<Placed>,
+}
+
+#[derive(Debug)]
+struct Placed {
+    shading: usize,
+    object_from_world: DAffine3,
+    world_from_object: DAffine3,
+    cotangent: DMat3,
+    magnitude: f64,
+}
+
+impl Primitive for Mesh {
+    type Packed = PackedMesh;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedMesh), Degenerate> {
+        let mesh = self.model.data.clone().ok_or_else(|| Degenerate("its model was not loaded".into()))?;
+        if mesh.is_empty() {
+            return Err(Degenerate("its model has no triangles with an area".into()));
+        }
+        let tree = mesh.tree();
+        let bounds = tree.bvh.top_boxes().map(|b| b.transformed(world_from_object)).reduce(Bounds::union);
+        let object_from_world = world_from_object.inverse();
+        let placed = Placed {
+            shading: self.shading,
+            object_from_world,
+            world_from_object: *world_from_object,
+            cotangent: object_from_world.matrix3.transpose(),
+            magnitude: tree.magnitude * norm(&world_from_object.matrix3)
+                + world_from_object.translation.abs().max_element(),
+        };
+        Ok((Extent::Bounded(bounds.unwrap_or(Bounds::EMPTY)), PackedMesh { mesh, placed: Arc::new(placed) }))
+    }
+
+    #[inline]
+    fn hit(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        let ray = ray.transformed(&packed.placed.object_from_world);
+        let tree = packed.mesh.tree();
+        let frame = RayFrame::new(&ray);
+        let mut best: Option<Hit> = None;
+        tree.bvh.walk(&ray, t_max, cost, |run, limit, cost| {
+            cost.primitives += run.len() as u64;
+            let mut limit = limit;
+            for i in run {
+                if let Some(hit) = frame.hit(tree.vertices[i].map(point), limit) {
+                    let hit = Hit { t: hit.t, part: tree.bvh.order()[i] };
+                    // On equal distance the lowest index, whatever the order of the walk.
+                    if best.is_none_or(|best| hit.t < best.t || hit.part < best.part) {
+                        best = Some(hit);
+                        limit = hit.t;
+                    }
+                }
+            }
+            limit
+        });
+        best
+    }
+
+    #[inline]
+    fn blocks(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
+        let ray = ray.transformed(&packed.placed.object_from_world);
+        let tree = packed.mesh.tree();
+        let frame = RayFrame::new(&ray);
+        tree.bvh.any(&ray, t_max, cost, |run, cost| {
+            cost.primitives += run.len() as u64;
+            run.into_iter().any(|i| frame.hit(tree.vertices[i].map(point), t_max).is_some_and(|hit| hit.t < t_max))
+        })
+    }
+
+    fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
+        let (mesh, placed) = (&*packed.mesh, &*packed.placed);
+        let corners = mesh.triangles[hit.part as usize];
+        let vertices = mesh.points(corners);
+        let object_ray = ray.transformed(&placed.object_from_world);
+        let [u, v, w] = weights(RayFrame::new(&object_ray).hit(vertices, hit.t));
+        let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
+        let normal = (placed.cotangent * mesh.cross(corners)).normalize_or(DVec3::Y);
+        let normals = match SHADING[placed.shading] {
+            "Flat" => None,
+            "Smooth" => Some(mesh.normals.of(hit.part).map_or_else(
+                || corners.map(|v| point(mesh.smooth_normals()[v as usize])),
+                |normals| normals.map(DVec3::from_array),
+            )),
+            _ => mesh.normals.of(hit.part).map(|normals| normals.map(DVec3::from_array)),
+        };
+        let shading_normal = normals.map_or(normal, |normals| (placed.cotangent * blend(normals)).normalize_or(normal));
+        let uv = match mesh.uvs.of(hit.part) {
+            Some([a, b, c]) => DVec2::from_array(a) * u + DVec2::from_array(b) * v + DVec2::from_array(c) * w,
+            None => DVec2::new(v, w),
+        };
+        Surface {
+            point: placed.world_from_object.transform_point3(blend(vertices)),
+            normal,
+            shading_normal,
+            uv,
+            slot: mesh.slots.get(hit.part as usize).map_or(0, |&slot| u32::from(slot)),
+            magnitude: placed.magnitude,
+        }
+    }
+
+    fn bounding_sphere(packed: &PackedMesh, _: &Bounds) -> BoundingSphere {
+        let (sphere, to) = (packed.mesh.tree().sphere, packed.placed.world_from_object);
+        let center = to.transform_point3(sphere.center);
+        BoundingSphere::about(center, [center + DVec3::X * (sphere.radius * norm(&to.matrix3))])
+    }
+}
+
+/// An upper bound of how much a matrix lengthens any vector; exact for uniform scales up to rounding.
+fn norm(m: &DMat3) -> f64 {
+    let gram = m.transpose() * *m;
+    let rows = gram.x_axis.abs() + gram.y_axis.abs() + gram.z_axis.abs();
+    rows.max_element().sqrt() * (1.0 + 8.0 * f64::EPSILON)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quad() -> TriangleMesh {
+        let positions = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [f32::NAN; 3]];
+        TriangleMesh::new(positions, vec![[0, 1, 2], [0, 0, 1], [0, 2, 3]]).expect("a mesh")
+    }
+
+    #[test]
+    fn triangles_without_area_are_counted_and_unused_vertices_ignored() {
+        let mesh = quad();
+        assert_eq!((mesh.len(), mesh.degenerate()), (2, 1));
+        let (extent, _) = Mesh::new(mesh).pack(&DAffine3::IDENTITY).expect("packed");
+        assert!(matches!(extent, Extent::Bounded(b) if b.min.is_finite() && b.contains(DVec3::new(1.0, 1.0, 0.0))));
+    }
+
+    #[test]
+    fn an_edge_hit_goes_to_the_lowest_triangle_and_is_blocked_too() {
+        let (_, packed) = Mesh::new(quad()).pack(&DAffine3::IDENTITY).expect("packed");
+        let ray = Ray { origin: DVec3::new(0.5, 0.5, 2.0), direction: DVec3::NEG_Z };
+        let hit = Mesh::hit(&packed, &ray, f64::INFINITY, &mut Cost::default());
+        assert_eq!(hit, Some(Hit { t: 2.0, part: 0 }));
+        assert!(Mesh::blocks(&packed, &ray, 2.5, &mut Cost::default()));
+        assert!(!Mesh::blocks(&packed, &ray, 2.0, &mut Cost::default()));
+    }
+
+    #[test]
+    fn faults_name_the_triangle() {
+        let positions = vec![[0.0; 3], [1.0, 0.0, 0.0]];
+        let error = TriangleMesh::new(positions, vec![[0, 1, 2]]).expect_err("an index beyond");
+        assert_eq!(error.to_string(), "triangle 0: index 2 of 2");
+        let error = TriangleMesh::new(vec![[f32::INFINITY; 3]; 3], vec![[0, 1, 2]]).expect_err("not finite");
+        assert!(error.to_string().contains("vertex 0 is not finite"));
+    }
+
+    #[test]
+    fn smooth_shading_blends_the_faces_around_a_vertex() {
+        let roof = vec![[0.0, 1.0, 0.0], [0.0, 1.0, 1.0], [1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]];
+        let mesh = TriangleMesh::new(roof, vec![[0, 1, 2], [1, 0, 3]]).expect("a mesh");
+        let (_, packed) = Mesh::new(mesh).smooth().pack(&DAffine3::IDENTITY).expect("packed");
+        let ray = Ray { origin: DVec3::new(0.0, 5.0, 0.25), direction: DVec3::NEG_Y };
+        let hit = Mesh::hit(&packed, &ray, f64::INFINITY, &mut Cost::default()).expect("the ridge");
+        assert!((Mesh::surface(&packed, &ray, hit).shading_normal - DVec3::Y).length() < 1e-6);
+    }
+}

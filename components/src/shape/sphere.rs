@@ -1,0 +1,219 @@
+//! `Sphere(radius: 1)`: a sphere about the origin of its object space; an ellipsoid when scaled unevenly.
+//!
+//! Texture coordinates: u runs once around Oy, 0 at −x going through +z; v runs from the lowest point, 0, to the
+//! highest, 1.
+
+use crate::{
+    describe::{Describe, FieldVisitor, Spec, Value},
+    math,
+    primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
+    space::{BoundingSphere, Bounds, Ray},
+};
+use bevy_ecs::prelude::*;
+use core::f64::consts::PI;
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+
+/// A sphere about the origin of its object space.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Sphere {
+    /// Object units, more than zero.
+    pub radius: f64,
+}
+
+impl Default for Sphere {
+    fn default() -> Self {
+        Self { radius: 1.0 }
+    }
+}
+
+impl Describe for Sphere {
+    const TAG: &'static str = "Sphere";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        fields.field("radius", Value::Number(&mut self.radius), Spec::positive("radius, object units").required());
+    }
+}
+
+/// A sphere as the inner loop sees it.
+#[derive(Clone, Debug)]
+pub struct PackedSphere {
+    /// World space where `ellipsoid` is `None`, else object space.
+    center: DVec3,
+    radius: f64,
+    /// Turns world directions into the sphere's own, for texture coordinates.
+    object_from_world: DMat3,
+    /// Maps of a sphere that its placement makes an ellipsoid.
+    ellipsoid: Option<Box<Ellipsoid>>,
+}
+
+#[derive(Clone, Debug)]
+struct Ellipsoid {
+    object_from_world: DAffine3,
+    world_from_object: DAffine3,
+}
+
+impl PackedSphere {
+    /// Unit normal and point nearest to `p`, in the space of `center`.
+    fn project(&self, p: DVec3) -> (DVec3, DVec3) {
+        let normal = (p - self.center).normalize_or(DVec3::Y);
+        (normal, self.center + normal * self.radius)
+    }
+}
+
+/// The nearest hit of a sphere with `0 < t <= t_max`.
+///
+/// The discriminant comes from the perpendicular foot of the centre on the ray and the nearer root from `c/q`, so that
+/// neither cancels however far or large the sphere (Haines, Günther, Akenine-Möller: Precision Improvements for
+/// Ray/Sphere Intersection, Ray Tracing Gems 7; `c` as a product after the same chapter's remark on huge spheres).
+#[inline]
+fn nearest_root(center: DVec3, radius: f64, ray: &Ray, t_max: f64) -> Option<f64> {
+    let f = ray.origin - center;
+    let d = ray.direction;
+    let a = d.dot(d);
+    let b = -f.dot(d);
+    let foot = f + d * (b / a);
+    let gap = radius * radius - foot.dot(foot);
+    if gap < 0.0 {
+        return None;
+    }
+    let distance = f.length();
+    let c = (distance - radius) * (distance + radius);
+    let root = (a * gap).sqrt();
+    let q = if b < 0.0 { b - root } else { b + root };
+    // `q` is zero only for a ray tangent at its own origin.
+    let (t0, t1) = if q == 0.0 { (0.0, 0.0) } else { (c / q, q / a) };
+    let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
+    let t = if near > 0.0 { near } else { far };
+    (t > 0.0 && t <= t_max).then_some(t)
+}
+
+impl Primitive for Sphere {
+    type Packed = PackedSphere;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedSphere), Degenerate> {
+        let object_from_world = world_from_object.inverse();
+        if let Some(scale) = uniform_scale(&world_from_object.matrix3) {
+            let (center, radius) = (world_from_object.translation, self.radius * scale);
+            let margin = 8.0 * f64::EPSILON * (radius + center.abs().max_element());
+            let bounds = Bounds { min: center - radius, max: center + radius }.widened(margin);
+            let object_from_world = object_from_world.matrix3;
+            return Ok((Extent::Bounded(bounds), PackedSphere { center, radius, object_from_world, ellipsoid: None }));
+        }
+        // Half-extent of an ellipsoid along each world axis: the norm of that row of the matrix.
+        let m = world_from_object.matrix3.transpose();
+        let half = DVec3::new(m.x_axis.length(), m.y_axis.length(), m.z_axis.length()) * self.radius;
+        let center = world_from_object.translation;
+        let bounds = Bounds { min: center - half, max: center + half };
+        let margin = 64.0 * f64::EPSILON * (half + center.abs()).max_element();
+        let maps = Ellipsoid { object_from_world, world_from_object: *world_from_object };
+        Ok((
+            Extent::Bounded(bounds.widened(margin)),
+            PackedSphere {
+                center: DVec3::ZERO,
+                radius: self.radius,
+                object_from_world: DMat3::IDENTITY,
+                ellipsoid: Some(Box::new(maps)),
+            },
+        ))
+    }
+
+    #[inline]
+    fn hit(packed: &PackedSphere, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        cost.primitives += 1;
+        let t = match &packed.ellipsoid {
+            None => nearest_root(packed.center, packed.radius, ray, t_max),
+            Some(maps) => nearest_root(packed.center, packed.radius, &ray.transformed(&maps.object_from_world), t_max),
+        };
+        t.map(|t| Hit { t, part: 0 })
+    }
+
+    fn surface(packed: &PackedSphere, ray: &Ray, hit: Hit) -> Surface {
+        let (point, normal, local) = match &packed.ellipsoid {
+            None => {
+                let (normal, point) = packed.project(ray.at(hit.t));
+                (point, normal, (packed.object_from_world * normal).normalize_or(DVec3::Y))
+            }
+            Some(maps) => {
+                let (local, at) = packed.project(ray.transformed(&maps.object_from_world).at(hit.t));
+                let normal = (maps.object_from_world.matrix3.transpose() * local).normalize_or(DVec3::Y);
+                (maps.world_from_object.transform_point3(at), normal, local)
+            }
+        };
+        let u = 0.5 + math::atan2(-local.z, local.x) / (2.0 * PI);
+        let v = 1.0 - math::acos(local.y) / PI;
+        let magnitude = packed.center.abs().max_element() + packed.radius;
+        let magnitude = packed.ellipsoid.as_ref().map_or(magnitude, |maps| {
+            let m = maps.world_from_object;
+            m.translation.abs().max_element() + packed.radius * largest_axis(&m.matrix3)
+        });
+        Surface { point, normal, shading_normal: normal, uv: DVec2::new(u, v), slot: 0, magnitude }
+    }
+
+    fn bounding_sphere(packed: &PackedSphere, bounds: &Bounds) -> BoundingSphere {
+        match packed.ellipsoid {
+            None => BoundingSphere::about(packed.center, [packed.center + DVec3::X * packed.radius]),
+            Some(_) => BoundingSphere::of_bounds(bounds),
+        }
+    }
+}
+
+/// The one factor by which a matrix scales every direction, if there is one up to rounding.
+fn uniform_scale(m: &DMat3) -> Option<f64> {
+    let gram = m.transpose() * *m;
+    let square = gram.x_axis.x;
+    let rest = gram - DMat3::from_diagonal(DVec3::splat(square));
+    let off = [rest.x_axis, rest.y_axis, rest.z_axis].map(|c| c.abs().max_element());
+    let largest = if off[0] > off[1] { off[0] } else { off[1] };
+    let largest = if largest > off[2] { largest } else { off[2] };
+    (largest <= 32.0 * f64::EPSILON * square).then(|| square.sqrt())
+}
+
+fn largest_axis(m: &DMat3) -> f64 {
+    let squares = [m.x_axis.length_squared(), m.y_axis.length_squared(), m.z_axis.length_squared()];
+    squares.into_iter().fold(0.0, f64::max).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trace(sphere: &PackedSphere, origin: DVec3, direction: DVec3) -> Option<f64> {
+        Sphere::hit(sphere, &Ray { origin, direction }, f64::INFINITY, &mut Cost::default()).map(|h| h.t)
+    }
+
+    fn packed(radius: f64, placement: DAffine3) -> PackedSphere {
+        Sphere { radius }.pack(&placement).expect("a sphere").1
+    }
+
+    #[test]
+    fn far_and_huge_spheres_keep_their_digits() {
+        for exponent in 0..12 {
+            let distance = 10f64.powf(f64::from(exponent)) * 3.0;
+            let sphere = packed(1.0, DAffine3::from_translation(DVec3::Z * distance));
+            let t = trace(&sphere, DVec3::new(0.5, 0.0, 0.0), DVec3::Z).expect("a hit");
+            let exact = distance - 0.75f64.sqrt();
+            assert!((t - exact).abs() <= 4.0 * f64::EPSILON * distance, "{distance}: {t} against {exact}");
+        }
+        let globe = packed(1e12, DAffine3::from_translation(DVec3::Y * -1e12));
+        let t = trace(&globe, DVec3::Y, DVec3::NEG_Y).expect("a hit");
+        assert!((t - 1.0).abs() < 1e-3, "one above a sphere of 1e12: {t}");
+    }
+
+    #[test]
+    fn from_inside_the_far_side_is_hit() {
+        let sphere = packed(2.0, DAffine3::IDENTITY);
+        assert_eq!(trace(&sphere, DVec3::ZERO, DVec3::X), Some(2.0));
+        assert_eq!(trace(&sphere, DVec3::X * 5.0, DVec3::X), None);
+        assert_eq!(trace(&sphere, DVec3::X * -5.0, DVec3::X * 0.5), Some(6.0));
+    }
+
+    #[test]
+    fn uneven_scale_makes_an_ellipsoid() {
+        let sphere = packed(1.0, DAffine3::from_scale(DVec3::new(3.0, 1.0, 1.0)));
+        let ray = Ray { origin: DVec3::X * 10.0, direction: DVec3::NEG_X };
+        let hit = Sphere::hit(&sphere, &ray, f64::INFINITY, &mut Cost::default()).expect("a hit");
+        assert_eq!(hit.t, 7.0);
+        let surface = Sphere::surface(&sphere, &ray, hit);
+        assert_eq!((surface.point, surface.normal), (DVec3::X * 3.0, DVec3::X));
+    }
+}

@@ -1,0 +1,133 @@
+//! `Triangle(a: (0,0,0), b: (1,0,0), c: (0,1,0))`: three points, optionally with a normal and texture coordinates each.
+//!
+//! The front faces the side from which a, b, c run counter-clockwise. Without `uvs`, u and v are the weights of b and c.
+
+use super::shear::{RayFrame, TriangleHit};
+use crate::{
+    describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
+    space::{BoundingSphere, Bounds, Ray},
+};
+use bevy_ecs::prelude::*;
+use glam::{DAffine3, DVec2, DVec3};
+
+/// A triangle by three points.
+#[derive(Component, Clone, Debug, Default, PartialEq)]
+pub struct Triangle {
+    /// First point, object space.
+    pub a: DVec3,
+    /// Second point, object space.
+    pub b: DVec3,
+    /// Third point, object space.
+    pub c: DVec3,
+    /// Normals at the points, for smooth (Phong) shading; none for flat shading.
+    pub normals: Vec<DVec3>,
+    /// Texture coordinates at the points; none for the weights of b and c.
+    pub uvs: Vec<DVec2>,
+}
+
+impl Describe for Triangle {
+    const TAG: &'static str = "Triangle";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        fields.field("a", Value::Vector(&mut self.a), Spec::any("first point, object space").required());
+        fields.field("b", Value::Vector(&mut self.b), Spec::any("second point, object space").required());
+        fields.field("c", Value::Vector(&mut self.c), Spec::any("third point, object space").required());
+        fields.field("normals", Value::Vectors(&mut self.normals), Spec::any("a normal per point, or none").nonzero());
+        fields.field("uvs", Value::Vectors2(&mut self.uvs), Spec::any("texture coordinates per point, or none"));
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        for (field, count) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
+            if count != 0 && count != 3 {
+                return Err(Fault::new(field, format!("three entries or none, found {count}")));
+            }
+        }
+        if (self.b - self.a).cross(self.c - self.a) == DVec3::ZERO {
+            return Err(Fault::new("c", "three points that are not on one line"));
+        }
+        Ok(())
+    }
+}
+
+/// A triangle as the inner loop sees it.
+#[derive(Clone, Debug)]
+pub struct PackedTriangle {
+    vertices: [DVec3; 3],
+    normal: DVec3,
+    normals: Option<[DVec3; 3]>,
+    uvs: [DVec2; 3],
+}
+
+impl Primitive for Triangle {
+    type Packed = PackedTriangle;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedTriangle), Degenerate> {
+        let vertices = [self.a, self.b, self.c].map(|v| world_from_object.transform_point3(v));
+        // The object-space normal, mapped by the inverse transpose: a mirroring placement must not turn it round.
+        let cotangent = world_from_object.inverse().matrix3.transpose();
+        let flat = (self.b - self.a).cross(self.c - self.a);
+        let normal = (cotangent * flat).try_normalize();
+        let Some(normal) = normal else {
+            return Err(Degenerate("its three points lie on one line".into()));
+        };
+        let normals = <[DVec3; 3]>::try_from(self.normals.as_slice()).ok();
+        let normals = normals.map(|n| n.map(|n| (cotangent * n).normalize_or(normal)));
+        let uvs = <[DVec2; 3]>::try_from(self.uvs.as_slice()).unwrap_or([DVec2::ZERO, DVec2::X, DVec2::Y]);
+        let bounds = Bounds::of_points(vertices);
+        Ok((Extent::Bounded(bounds), PackedTriangle { vertices, normal, normals, uvs }))
+    }
+
+    #[inline]
+    fn hit(packed: &PackedTriangle, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        cost.primitives += 1;
+        RayFrame::new(ray).hit(packed.vertices, t_max).map(|h| Hit { t: h.t, part: 0 })
+    }
+
+    fn surface(packed: &PackedTriangle, ray: &Ray, hit: Hit) -> Surface {
+        let [u, v, w] = weights(RayFrame::new(ray).hit(packed.vertices, hit.t));
+        let [a, b, c] = packed.vertices;
+        let shading_normal =
+            packed.normals.map_or(packed.normal, |[na, nb, nc]| (na * u + nb * v + nc * w).normalize_or(packed.normal));
+        let [ta, tb, tc] = packed.uvs;
+        Surface {
+            point: a * u + b * v + c * w,
+            normal: packed.normal,
+            shading_normal,
+            uv: ta * u + tb * v + tc * w,
+            slot: 0,
+            magnitude: a.abs().max(b.abs()).max(c.abs()).max_element(),
+        }
+    }
+
+    fn bounding_sphere(packed: &PackedTriangle, bounds: &Bounds) -> BoundingSphere {
+        BoundingSphere::about(bounds.center(), packed.vertices)
+    }
+}
+
+/// The weights of a hit that is known to be one.
+pub(super) fn weights(hit: Option<TriangleHit>) -> [f64; 3] {
+    hit.map_or([1.0, 0.0, 0.0], |h| h.weights)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mirrored_triangle_keeps_its_front() {
+        let triangle = Triangle { b: DVec3::X, c: DVec3::Y, ..Triangle::default() };
+        let (_, packed) = triangle.pack(&DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0))).expect("a triangle");
+        assert_eq!(packed.normal, DVec3::Z);
+    }
+
+    #[test]
+    fn opposite_normals_fall_back_to_the_face() {
+        let normals = vec![DVec3::X, DVec3::NEG_X, DVec3::Z];
+        let triangle = Triangle { b: DVec3::X, c: DVec3::Y, normals, ..Triangle::default() };
+        let (_, packed) = triangle.pack(&DAffine3::IDENTITY).expect("a triangle");
+        let ray = Ray { origin: DVec3::new(0.5, 0.0, 1.0), direction: DVec3::NEG_Z };
+        let hit = Triangle::hit(&packed, &ray, f64::INFINITY, &mut Cost::default()).expect("a hit");
+        assert_eq!(Triangle::surface(&packed, &ray, hit).shading_normal, DVec3::Z);
+    }
+}
