@@ -1,1 +1,59 @@
-//! f
+//! Snell: a Whitted ray tracer on an entity-component-system.
+//!
+//! Objects, materials, lights and the camera are entities; systems turn them, in a fixed order, into a picture that is
+//! the same to the last bit on every machine, for any number of threads and any way of building the scene.
+//!
+//! ```
+//! use snell::prelude::*;
+//!
+//! let mut renderer = Renderer::new();
+//! let world = &mut renderer.world;
+//! world.spawn(Camera { position: DVec3::new(0.0, 1.0, 5.0), ..Camera::default() });
+//! world.spawn(PointLight { position: DVec3::new(3.0, 5.0, 4.0), ..PointLight::default() });
+//! let red = world.spawn((Color(Rgb::new(0.8, 0.1, 0.1)), Diffuse(Rgb::ONE))).id();
+//! world.spawn((Sphere { radius: 1.0 }, Transform::at(DVec3::Y), MadeOf(red)));
+//! world.spawn(Plane {});
+//! renderer.settings().width = 40;
+//! renderer.settings().height = 30;
+//!
+//! let snapshot = renderer.snapshot()?;
+//! let frame = render(&snapshot, &Options::default());
+//! assert!(frame.is_complete());
+//! # Ok::<(), snell::SceneError>(())
+//! ```
+
+pub use snell_components as components;
+pub use snell_systems as systems;
+
+pub use snell_systems::{
+    accelerate::Accelerator,
+    extract::SceneError,
+    load::{Fault, Faults, Notice},
+    pipeline::Renderer,
+    render::{Counts, Frame, Options, Picture, Progress, Region, Stop, render},
+    snapshot::Snapshot,
+};
+
+/// What a program that builds and renders scenes needs.
+pub mod prelude {
+    pub use crate::{Accelerator, Frame, Options, Picture, Region, Renderer, SceneError, Snapshot, Stop, render};
+    pub use bevy_ecs::prelude::*;
+    pub use glam::{DAffine3, DVec2, DVec3};
+    pub use snell_components::{
+        camera::Camera,
+        color::Rgb,
+        describe::{Describe, Fault, FieldVisitor, Spec, Value},
+        light::{AmbientLight, DirectionalLight, Light, PointLight},
+        material::{
+            Ambient, Color, Dielectric, Diffuse, Highlight, MadeOf, MaterialSlots, Mirror, Opacity, Refraction,
+            Transmission,
+        },
+        name::Name,
+        primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
+        settings::Settings,
+        shape::{Cuboid, Mesh, Plane, Sphere, Triangle, TriangleMesh},
+        space::{Bounds, Ray},
+        texture::{Checker, Image, ImageTexture, Texture},
+        transform::{Step, Transform},
+    };
+}

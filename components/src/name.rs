@@ -32,8 +32,24 @@ impl core::fmt::Display for Name {
     }
 }
 
-/// Sort key of an entity: names first, in byte order, then nameless entities by age.
-#[must_use]
-pub fn order_key(entity: Entity, name: Option<&Name>) -> (bool, Option<&str>, u64) {
-    (name.is_none(), name.map(Name::as_str), entity.to_bits())
+/// Where an entity stands in the order of everything: names first, in byte order, then nameless entities by age.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Rank {
+    nameless: bool,
+    name: Option<Name>,
+    age: u64,
+}
+
+impl Rank {
+    /// The rank of an entity.
+    #[must_use]
+    pub fn of(entity: Entity, name: Option<&Name>) -> Self {
+        Self { nameless: name.is_none(), name: name.cloned(), age: entity.to_bits() }
+    }
+
+    /// The name, if there is one.
+    #[must_use]
+    pub fn name(&self) -> Option<&Name> {
+        self.name.as_ref()
+    }
 }

@@ -26,6 +26,11 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
     /// Nearest hit with `0 < t <= t_max`, by a rule that depends on nothing but its arguments.
     fn hit(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit>;
 
+    /// The same hit, bit for bit, found without any acceleration inside the shape: the oracle for `hit`.
+    fn hit_exhaustive(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        Self::hit(packed, ray, t_max, cost)
+    }
+
     /// Whether anything is hit with `0 < t < t_max`; must agree with `hit`.
     fn blocks(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
         Self::hit(packed, ray, t_max, cost).is_some_and(|hit| hit.t < t_max)

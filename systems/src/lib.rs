@@ -1,1 +1,22 @@
-//! s
+//! What happens to a scene, in order.
+//!
+//! scene text → [`load`] → `World` → [`transform`] → [`accelerate`] → [`extract`] → [`snapshot::Snapshot`] → [`render`]
+//! → [`image`] → file. [`pipeline`] holds the order; [`registry`] the open set of components.
+
+pub mod pipeline;
+
+pub mod registry;
+
+pub mod load;
+
+pub mod transform;
+
+pub mod accelerate;
+
+pub mod extract;
+
+pub mod snapshot;
+
+pub mod render;
+
+pub mod image;

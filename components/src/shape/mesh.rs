@@ -312,24 +312,17 @@ impl Primitive for Mesh {
     fn hit(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
         let ray = ray.transformed(&packed.placed.object_from_world);
         let tree = packed.mesh.tree();
-        let frame = RayFrame::new(&ray);
-        let mut best: Option<Hit> = None;
-        tree.bvh.walk(&ray, t_max, cost, |run, limit, cost| {
-            cost.primitives += run.len() as u64;
-            let mut limit = limit;
-            for i in run {
-                if let Some(hit) = frame.hit(tree.vertices[i].map(point), limit) {
-                    let hit = Hit { t: hit.t, part: tree.bvh.order()[i] };
-                    // On equal distance the lowest index, whatever the order of the walk.
-                    if best.is_none_or(|best| hit.t < best.t || hit.part < best.part) {
-                        best = Some(hit);
-                        limit = hit.t;
-                    }
-                }
-            }
-            limit
-        });
-        best
+        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: t_max, best: None };
+        tree.bvh.walk(&ray, t_max, cost, |run, _, cost| search.test(run, cost));
+        search.best
+    }
+
+    fn hit_exhaustive(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        let ray = ray.transformed(&packed.placed.object_from_world);
+        let tree = packed.mesh.tree();
+        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: t_max, best: None };
+        search.test(0..packed.mesh.len(), cost);
+        search.best
     }
 
     #[inline]
@@ -378,6 +371,33 @@ impl Primitive for Mesh {
         let (sphere, to) = (packed.mesh.tree().sphere, packed.placed.world_from_object);
         let center = to.transform_point3(sphere.center);
         BoundingSphere::about(center, [center + DVec3::X * (sphere.radius * norm(&to.matrix3))])
+    }
+}
+
+/// A search for the nearest triangle.
+struct Search<'a> {
+    tree: &'a MeshTree,
+    frame: RayFrame,
+    limit: f64,
+    best: Option<Hit>,
+}
+
+impl Search<'_> {
+    /// Tests a run of triangles; returns the distance beyond which nothing matters.
+    #[inline]
+    fn test(&mut self, run: core::ops::Range<usize>, cost: &mut Cost) -> f64 {
+        cost.primitives += run.len() as u64;
+        for i in run {
+            if let Some(hit) = self.frame.hit(self.tree.vertices[i].map(point), self.limit) {
+                let hit = Hit { t: hit.t, part: self.tree.bvh.order()[i] };
+                // On equal distance the lowest index, whatever the order of the walk.
+                if self.best.is_none_or(|best| hit.t < best.t || hit.part < best.part) {
+                    self.best = Some(hit);
+                    self.limit = hit.t;
+                }
+            }
+        }
+        self.limit
     }
 }
 

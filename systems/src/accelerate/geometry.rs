@@ -1,0 +1,162 @@
+//! Every shape of a scene, and the tree over them.
+
+use super::pool::{Best, ErasedPool, Nearest};
+use snell_components::{
+    bvh::{Box32, Bvh},
+    primitive::{Cost, Extent, Surface},
+    space::Ray,
+};
+use std::sync::Arc;
+
+/// Most shapes in a leaf of the tree over all shapes.
+const LEAF: usize = 2;
+
+/// How the nearest hit is found; all ways give the same bits.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Accelerator {
+    /// By the trees.
+    #[default]
+    Tree,
+    /// By testing every shape and every triangle: the oracle.
+    BruteForce,
+}
+
+/// A run of shapes of one type.
+#[derive(Clone, Copy, Debug)]
+struct Run {
+    pool: u32,
+    first: u32,
+    end: u32,
+}
+
+/// Where a ray met an object.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Intersection {
+    /// The surface.
+    pub surface: Surface,
+    /// Distance in units of the ray's direction.
+    pub t: f64,
+    /// Rank of the object in the order of names.
+    pub object: u32,
+}
+
+/// Every shape of a scene; immutable and shared.
+#[derive(Default)]
+pub struct Geometry {
+    tree: Option<Bvh>,
+    pools: Vec<Arc<dyn ErasedPool>>,
+    /// Runs of the tree's leaves, in leaf order.
+    runs: Vec<Run>,
+    /// For each position in the tree's order at which a leaf begins, its runs.
+    leaf_runs: Vec<(u32, u32)>,
+    /// Shapes that no box holds; tested by every ray.
+    unbounded: Vec<Run>,
+}
+
+impl Geometry {
+    /// Builds the tree over the shapes of some pools.
+    #[must_use]
+    pub fn build<'a>(pools: impl Iterator<Item = &'a Arc<dyn ErasedPool>>) -> Self {
+        let pools: Vec<_> = pools.collect();
+        let mut boxes = vec![];
+        let mut shapes = vec![];
+        let mut orders: Vec<Vec<u32>> = vec![vec![]; pools.len()];
+        for (pool, shapes_of_pool) in pools.iter().enumerate() {
+            for (index, extent) in shapes_of_pool.extents().iter().enumerate() {
+                match extent {
+                    Extent::Bounded(bounds) => {
+                        boxes.push(Box32::around(bounds));
+                        shapes.push((pool as u32, index as u32));
+                    }
+                    // Unbounded shapes come first in their pool.
+                    Extent::Unbounded => orders[pool].push(index as u32),
+                }
+            }
+        }
+        let whole = |(pool, order): (usize, &Vec<u32>)| Run { pool: pool as u32, first: 0, end: order.len() as u32 };
+        let unbounded: Vec<Run> = orders.iter().enumerate().map(whole).filter(|run| run.end > 0).collect();
+
+        let tree = Bvh::build(boxes.into_iter(), LEAF);
+        let mut runs: Vec<Run> = vec![];
+        let mut leaf_runs = vec![(0, 0); shapes.len()];
+        for leaf in tree.leaves() {
+            let start = leaf.start;
+            let begin = runs.len();
+            let mut members: Vec<_> = tree.order()[leaf].iter().map(|&i| shapes[i as usize]).collect();
+            members.sort_unstable();
+            for (pool, index) in members {
+                let order = &mut orders[pool as usize];
+                let at = order.len() as u32;
+                match runs[begin..].last_mut() {
+                    Some(run) if run.pool == pool => run.end += 1,
+                    _ => runs.push(Run { pool, first: at, end: at + 1 }),
+                }
+                order.push(index);
+            }
+            leaf_runs[start] = (begin as u32, runs.len() as u32);
+        }
+        let pools = pools.iter().zip(&orders).map(|(pool, order)| pool.permuted(order)).collect();
+        let tree = (!shapes.is_empty()).then_some(tree);
+        Self { tree, pools, runs, leaf_runs, unbounded }
+    }
+
+    /// Nearest hit with `0 < t <= t_max`; among equally near ones the object first in the order of names.
+    #[must_use]
+    pub fn closest(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> Option<Intersection> {
+        let nearest = self.nearest(ray, t_max, with, cost)?;
+        let surface = self.pools[nearest.pool as usize].surface(nearest.index, ray, nearest.hit);
+        Some(Intersection { surface, t: nearest.hit.t, object: nearest.object })
+    }
+
+    fn nearest(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> Option<Nearest> {
+        if !ray.is_valid() {
+            return None;
+        }
+        let mut best = Best { pool: 0, limit: t_max, nearest: None };
+        for run in &self.unbounded {
+            self.search(run, ray, with, &mut best, cost);
+        }
+        match (&self.tree, with) {
+            (None, _) => {}
+            (Some(tree), Accelerator::Tree) => tree.walk(ray, best.limit, cost, |leaf, _, cost| {
+                let (begin, end) = self.leaf_runs[leaf.start];
+                for run in &self.runs[begin as usize..end as usize] {
+                    self.search(run, ray, with, &mut best, cost);
+                }
+                best.limit
+            }),
+            (Some(_), Accelerator::BruteForce) => {
+                for run in &self.runs {
+                    self.search(run, ray, with, &mut best, cost);
+                }
+            }
+        }
+        best.nearest
+    }
+
+    fn search(&self, run: &Run, ray: &Ray, with: Accelerator, best: &mut Best, cost: &mut Cost) {
+        best.pool = run.pool;
+        self.pools[run.pool as usize].closest(run.first as usize..run.end as usize, ray, with, best, cost);
+    }
+
+    /// Whether anything is hit with `0 < t < t_max`.
+    #[must_use]
+    pub fn blocked(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> bool {
+        if with == Accelerator::BruteForce {
+            return self.nearest(ray, t_max, with, cost).is_some_and(|nearest| nearest.hit.t < t_max);
+        }
+        if !ray.is_valid() {
+            return false;
+        }
+        let blocks = |run: &Run, cost: &mut Cost| {
+            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, cost)
+        };
+        self.unbounded.iter().any(|run| blocks(run, cost))
+            || self.tree.as_ref().is_some_and(|tree| {
+                tree.any(ray, t_max, cost, |leaf, cost| {
+                    let (begin, end) = self.leaf_runs[leaf.start];
+                    self.runs[begin as usize..end as usize].iter().any(|run| blocks(run, cost))
+                })
+            })
+    }
+}

@@ -1,0 +1,118 @@
+//! All packed shapes of one type, behind an interface that knows no type.
+
+use super::geometry::Accelerator;
+use core::ops::Range;
+use snell_components::{
+    primitive::{Cost, Extent, Hit, Primitive, Surface},
+    space::Ray,
+};
+use std::sync::Arc;
+
+/// The nearest hit so far.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Nearest {
+    /// Distance and part.
+    pub hit: Hit,
+    /// Which pool.
+    pub pool: u32,
+    /// Which shape in the pool.
+    pub index: u32,
+    /// Which object: its rank in the order of names.
+    pub object: u32,
+}
+
+/// Shapes of one type as the tree sees them; called once per run.
+pub trait ErasedPool: Send + Sync {
+    /// How far each shape reaches.
+    fn extents(&self) -> &[Extent];
+
+    /// The same shapes in another order.
+    fn permuted(&self, order: &[u32]) -> Arc<dyn ErasedPool>;
+
+    /// The object each shape belongs to.
+    fn objects(&self) -> &[u32];
+
+    /// The nearest hit within the run that beats `best`: nearer, or as near and of an earlier object.
+    fn closest(&self, run: Range<usize>, ray: &Ray, with: Accelerator, best: &mut Best, cost: &mut Cost);
+
+    /// Whether a shape of the run blocks the ray before `t_max`.
+    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool;
+
+    /// The surface of a hit.
+    fn surface(&self, index: u32, ray: &Ray, hit: Hit) -> Surface;
+}
+
+/// A search for the nearest hit.
+#[derive(Clone, Copy, Debug)]
+pub struct Best {
+    /// Number of the pool being searched.
+    pub pool: u32,
+    /// Nothing beyond this matters.
+    pub limit: f64,
+    /// What was found.
+    pub nearest: Option<Nearest>,
+}
+
+/// All packed shapes of type `P`.
+pub struct Pool<P: Primitive> {
+    shapes: Vec<P::Packed>,
+    extents: Vec<Extent>,
+    objects: Vec<u32>,
+}
+
+impl<P: Primitive> Pool<P> {
+    /// A pool from shapes with their extents and objects.
+    pub fn new(shapes: impl IntoIterator<Item = (P::Packed, Extent, u32)>) -> Self {
+        let mut this = Self { shapes: vec![], extents: vec![], objects: vec![] };
+        for (shape, extent, object) in shapes {
+            this.shapes.push(shape);
+            this.extents.push(extent);
+            this.objects.push(object);
+        }
+        this
+    }
+}
+
+impl<P: Primitive> ErasedPool for Pool<P> {
+    fn extents(&self) -> &[Extent] {
+        &self.extents
+    }
+
+    fn permuted(&self, order: &[u32]) -> Arc<dyn ErasedPool> {
+        let order = || order.iter().map(|&i| i as usize);
+        Arc::new(Self {
+            shapes: order().map(|i| self.shapes[i].clone()).collect(),
+            extents: order().map(|i| self.extents[i]).collect(),
+            objects: order().map(|i| self.objects[i]).collect(),
+        })
+    }
+
+    fn objects(&self) -> &[u32] {
+        &self.objects
+    }
+
+    fn closest(&self, run: Range<usize>, ray: &Ray, with: Accelerator, best: &mut Best, cost: &mut Cost) {
+        for index in run {
+            let shape = &self.shapes[index];
+            let hit = match with {
+                Accelerator::Tree => P::hit(shape, ray, best.limit, cost),
+                Accelerator::BruteForce => P::hit_exhaustive(shape, ray, best.limit, cost),
+            };
+            if let Some(hit) = hit {
+                let object = self.objects[index];
+                if best.nearest.is_none_or(|nearest| hit.t < nearest.hit.t || object < nearest.object) {
+                    best.limit = hit.t;
+                    best.nearest = Some(Nearest { hit, pool: best.pool, index: index as u32, object });
+                }
+            }
+        }
+    }
+
+    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
+        self.shapes[run].iter().any(|shape| P::blocks(shape, ray, t_max, cost))
+    }
+
+    fn surface(&self, index: u32, ray: &Ray, hit: Hit) -> Surface {
+        P::surface(&self.shapes[index as usize], ray, hit)
+    }
+}

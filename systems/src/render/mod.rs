@@ -1,0 +1,17 @@
+//! Stage 5: the Whitted trace, in parallel over tiles of the picture.
+//!
+//! A pixel is a pure function of the snapshot and its coordinates, so neither the number of threads nor the size or
+//! order of tiles nor the region can change a bit of it.
+
+mod counts;
+mod optics;
+mod picture;
+mod shade;
+mod tile;
+mod trace;
+
+pub use counts::Counts;
+pub use optics::{fresnel, reflect, refract};
+pub use picture::{Picture, Region};
+pub use tile::{Frame, OnTile, Options, Progress, Stop, Tile, render};
+pub use trace::pixel;

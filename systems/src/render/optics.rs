@@ -1,0 +1,87 @@
+//! Mirror, Snell and Fresnel.
+
+use glam::DVec3;
+
+/// The direction mirrored at a surface with unit normal; as long as `direction`.
+#[must_use]
+#[inline]
+pub fn reflect(direction: DVec3, normal: DVec3) -> DVec3 {
+    direction - normal * (2.0 * direction.dot(normal))
+}
+
+/// The unit direction refracted at a surface, or none beyond the critical angle.
+///
+/// `direction` is a unit vector, `normal` a unit vector against it, and `eta` the index where the ray comes from over
+/// the one where it goes. With `L = −direction`: `T = eta·(cos α·N − L) − N·√(1 − sin²γ)`, Snell's law in vector form.
+#[must_use]
+#[inline]
+pub fn refract(direction: DVec3, normal: DVec3, eta: f64) -> Option<DVec3> {
+    // The same medium on both sides bends nothing, to the last bit.
+    if eta == 1.0 {
+        return Some(direction);
+    }
+    let cos_in = -direction.dot(normal);
+    let square = cos_out_squared(cos_in, eta);
+    if square < 0.0 {
+        return None;
+    }
+    Some((direction * eta + normal * (eta * cos_in - square.sqrt())).normalize())
+}
+
+/// Square of the cosine of the refracted angle; negative beyond the critical angle. The one place that decides it.
+#[inline]
+fn cos_out_squared(cos_in: f64, eta: f64) -> f64 {
+    1.0 - eta * eta * (1.0 - cos_in * cos_in)
+}
+
+/// Share of unpolarised light that is reflected, 0 to 1, by Fresnel's equations.
+///
+/// `cos_in` is the cosine of the angle of incidence, clamped to 0..=1; `eta` as in [`refract`]. Beyond the critical
+/// angle 1; between equal media 0.
+#[must_use]
+#[inline]
+pub fn fresnel(cos_in: f64, eta: f64) -> f64 {
+    if eta == 1.0 {
+        return 0.0;
+    }
+    let cos_in = cos_in.clamp(0.0, 1.0);
+    let square = cos_out_squared(cos_in, eta);
+    if square < 0.0 {
+        return 1.0;
+    }
+    let cos_out = square.sqrt();
+    // Both indices divided by the one where the ray goes.
+    let s = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
+    let p = (eta * cos_out - cos_in) / (eta * cos_out + cos_in);
+    (0.5 * (s * s + p * p)).min(1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fresnel_has_its_known_values() {
+        assert!((fresnel(1.0, 1.0 / 1.5) - 0.04).abs() < 1e-15);
+        assert_eq!(fresnel(0.0, 1.0 / 1.5), 1.0);
+        assert_eq!(fresnel(0.0, 1.0), 0.0);
+        assert_eq!(fresnel(0.5, 1.5), 1.0, "beyond the critical angle");
+        // Brewster's angle, tan θ = 1.5: only the perpendicular part is reflected, ((n²−1)/(n²+1))².
+        let cos = 1.0 / (1.0f64 + 1.5 * 1.5).sqrt();
+        let perpendicular = ((1.5 * 1.5 - 1.0) / (1.5f64 * 1.5 + 1.0)).powi(2);
+        assert!((fresnel(cos, 1.0 / 1.5) - 0.5 * perpendicular).abs() < 1e-15);
+        assert!((0.0..=1.0).contains(&fresnel(1.0 + 1e-7, 1.0 / 1.5)) && fresnel(-1e-7, 1.0 / 1.5) == 1.0);
+    }
+
+    #[test]
+    fn refraction_obeys_snell_on_both_ways() {
+        for degrees in [0.0f64, 10.0, 45.0, 80.0, 89.9] {
+            let (sin, cos) = degrees.to_radians().sin_cos();
+            let inside = refract(DVec3::new(sin, -cos, 0.0), DVec3::Y, 1.0 / 1.5).expect("entering");
+            assert!((inside.x - sin / 1.5).abs() < 1e-15, "{degrees}");
+            let out = refract(inside, DVec3::Y, 1.5).expect("leaving where it entered");
+            assert!((out - DVec3::new(sin, -cos, 0.0)).length() < 1e-12, "{degrees}: {out}");
+        }
+        assert_eq!(refract(DVec3::new(0.8, -0.6, 0.0), DVec3::Y, 1.5), None);
+    }
+}
