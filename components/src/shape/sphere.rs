@@ -188,7 +188,7 @@ mod tests {
     #[test]
     fn far_and_huge_spheres_keep_their_digits() {
         for exponent in 0..12 {
-            let distance = 10f64.powf(f64::from(exponent)) * 3.0;
+            let distance = math::pow(10.0, f64::from(exponent)) * 3.0;
             let sphere = packed(1.0, DAffine3::from_translation(DVec3::Z * distance));
             let t = trace(&sphere, DVec3::new(0.5, 0.0, 0.0), DVec3::Z).expect("a hit");
             let exact = distance - 0.75f64.sqrt();
