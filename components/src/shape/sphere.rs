@@ -141,12 +141,13 @@ impl Primitive for Sphere {
         };
         let u = 0.5 + math::atan2(-local.z, local.x) / (2.0 * PI);
         let v = 1.0 - math::acos(local.y) / PI;
-        let magnitude = packed.center.abs().max_element() + packed.radius;
-        let magnitude = packed.ellipsoid.as_ref().map_or(magnitude, |maps| {
+        let reach = packed.center.abs().max_element() + packed.radius;
+        let reach = packed.ellipsoid.as_ref().map_or(reach, |maps| {
             let m = maps.world_from_object;
             m.translation.abs().max_element() + packed.radius * largest_axis(&m.matrix3)
         });
-        Surface { point, normal, shading_normal: normal, uv: DVec2::new(u, v), slot: 0, magnitude }
+        let error = Surface::rounding(reach);
+        Surface { point, normal, shading_normal: normal, uv: DVec2::new(u, v), slot: 0, error }
     }
 
     fn bounding_sphere(packed: &PackedSphere, bounds: &Bounds) -> BoundingSphere {
