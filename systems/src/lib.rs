@@ -1,1 +1,3 @@
-//! s
+//! The systems of Snell, in order.
+
+pub mod load;

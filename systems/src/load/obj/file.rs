@@ -1,0 +1,82 @@
+//! Opening text files, and finding those that a file names.
+
+use crate::load::fault::{Fault, nearest};
+use std::fs::File;
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+
+/// Largest file read. No file below it holds more vertices or corners than 32-bit indices can tell apart.
+const MOST_BYTES: u64 = 4 << 30;
+
+/// Opens a text file behind its byte order mark.
+///
+/// # Errors
+/// What cannot be opened, is no regular file, is too large, or is UTF-16.
+pub(super) fn open(path: &Path) -> Result<impl BufRead + use<>, Fault> {
+    open_up_to(path, MOST_BYTES)
+}
+
+fn open_up_to(path: &Path, most: u64) -> Result<impl BufRead + use<>, Fault> {
+    let fault = |message: String| Fault::of_file(path, message);
+    let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"));
+    // Before opening: to open a pipe would wait for someone to write to it.
+    let data = std::fs::metadata(path).map_err(|error| fault(format!("cannot be opened: {error}{}", hint(path))))?;
+    if !data.is_file() {
+        return Err(fault("is not a file".into()));
+    }
+    if data.len() > most {
+        return Err(fault(format!("is larger than {} MiB", most >> 20)));
+    }
+    let file = File::open(path).map_err(|error| fault(format!("cannot be opened: {error}")))?;
+    let mut reader = BufReader::with_capacity(1 << 16, file);
+    match reader.fill_buf().map_err(unreadable)? {
+        [0xEF, 0xBB, 0xBF, ..] => reader.consume(3),
+        // Without a mark, UTF-16 shows by the zero in one half of its first character.
+        &[0xFF, 0xFE, ..] | &[0xFE, 0xFF, ..] | &[0, _, ..] | &[_, 0, ..] => {
+            return Err(fault("is not UTF-8 but seems to be UTF-16: save it as UTF-8".into()));
+        }
+        _ => {}
+    }
+    Ok(reader)
+}
+
+/// The path of a file that another in `folder` names. Backslashes separate folders where no file has them in its name.
+pub(super) fn resolve(folder: &Path, name: &str) -> PathBuf {
+    let plain = folder.join(name);
+    if name.contains('\\') && !plain.is_file() { folder.join(name.replace('\\', "/")) } else { plain }
+}
+
+/// ` (did you mean …?)` if the folder of a missing file holds one with a name like it.
+pub(super) fn hint(path: &Path) -> String {
+    /// Names looked at: a hint is not worth the time that huge folders take.
+    const MOST_NAMES: usize = 1000;
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let (Some(name), Ok(entries)) = (path.file_name(), folder.read_dir()) else { return String::new() };
+    let name = name.to_string_lossy();
+    let entries = entries.take(MOST_NAMES).flatten();
+    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    let near = names.iter().map(String::as_str).filter(|other| *other != name);
+    nearest(&name, near).map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_no_text_file_is_refused() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let message = |path: &Path| open_up_to(path, 8).err().map(|fault| fault.message);
+        assert_eq!(message(folder.path()).as_deref(), Some("is not a file"));
+        let file = folder.path().join("box.obj");
+        std::fs::write(&file, "v 0 0 0\nv").expect("written");
+        assert_eq!(message(&file).as_deref(), Some("is larger than 0 MiB"));
+        for text in [&b"\xFF\xFEv\0"[..], b"\xFE\xFF\0v", b"v\0 \0", b"\0v\0 "] {
+            std::fs::write(&file, text).expect("written");
+            assert!(message(&file).is_some_and(|message| message.contains("UTF-16")));
+        }
+        let missing = message(&folder.path().join("Bxo.obj")).unwrap_or_default();
+        assert!(missing.contains("did you mean `box.obj`?"), "{missing}");
+    }
+}
