@@ -1,10 +1,12 @@
 //! Real and broken files of many origins, where a collection of them is present: `SNELL_DATA` names its folder. Without
 //! one the tests here pass by.
 
+use glam::DVec2;
 use serde_json::Value;
-use snell_systems::load::fault::{Faults, Notice};
+use snell_components::color;
+use snell_systems::load::fault::{Fault, Faults, Notice};
 use snell_systems::load::obj::{self, Model};
-use snell_systems::load::{fault::Fault, image};
+use snell_systems::load::image;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -57,11 +59,10 @@ fn describe(outcome: Result<String, String>) -> (bool, String) {
     }
 }
 
-/// Files whose label is not what is right here.
-const OTHERWISE: [(&str, bool, &str); 3] = [
-    ("bad/obj/tobj/lines.obj", false, "holds lines only, and a model must have faces"),
-    ("", false, ""),
-    ("", false, ""),
+/// Whether a file loads whose label is not what is right here.
+const OTHERWISE: [(&str, bool); 1] = [
+    // Holds lines only, and a model must have faces.
+    ("bad/obj/tobj/lines.obj", false),
 ];
 
 #[test]
@@ -81,8 +82,8 @@ fn broken_files_are_read_or_refused_as_they_should_be() {
             _ => describe(timed(&path, || image::read(&path)).map(|_| String::new()).map_err(|e: Fault| e.to_string())),
         };
         println!("{}: {name}: {message}", if loaded { "read" } else { "refused" });
-        let right = match OTHERWISE.iter().find(|(other, ..)| *other == name) {
-            Some((_, loads, _)) => loaded == *loads,
+        let right = match OTHERWISE.iter().find(|(other, _)| *other == name) {
+            Some((_, loads)) => loaded == *loads,
             None => match expect.as_str() {
                 "load" | "reference" => loaded,
                 "reject" => !loaded,
@@ -131,6 +132,69 @@ fn real_models_have_the_triangles_they_should_have() {
                 }
             }
             Err(faults) => wrong.push(faults.to_string()),
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// Files below a folder, in order.
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let entries = folder.read_dir().expect("a folder").map(|entry| entry.expect("an entry").path());
+    let mut found: Vec<_> =
+        entries.flat_map(|path| if path.is_dir() { files_below(&path) } else { vec![path] }).collect();
+    found.sort();
+    found
+}
+
+#[test]
+fn real_textures_load() {
+    let Some(folder) = collection() else { return };
+    for path in files_below(&folder.join("textures")) {
+        if path.extension().is_some_and(|extension| extension != "json") {
+            let image = timed(&path, || image::read(&path)).unwrap_or_else(|fault| panic!("{fault}"));
+            println!("{}: {:?}", path.display(), image.size());
+        }
+    }
+}
+
+#[test]
+fn every_encoding_of_a_card_shows_the_same() {
+    let Some(folder) = collection() else { return };
+    let folder = folder.join("textures/format_zoo");
+    let mut wrong = vec![];
+    for entry in index(&folder.join("INDEX.json")) {
+        let name = entry["file"].as_str().expect("a name");
+        let list = |key: &str| -> Vec<f64> {
+            entry[key].as_array().into_iter().flatten().filter_map(Value::as_f64).collect()
+        };
+        let image = image::read(&folder.join(name)).unwrap_or_else(|fault| panic!("{fault}"));
+        let (width, height) = image.size();
+        if entry["size"].is_array() {
+            assert_eq!(list("size"), [f64::from(width), f64::from(height)], "{name}");
+        }
+        let code = |x: u32, y: u32| {
+            let uv = DVec2::new((f64::from(x) + 0.5) / f64::from(width), 1.0 - (f64::from(y) + 0.5) / f64::from(height));
+            (image.nearest(uv).to_array()).map(|linear| 255.0 * color::srgb_from_linear(linear))
+        };
+        let mut mean = [0.0; 3];
+        for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+            let code = code(x, y);
+            mean = std::array::from_fn(|i| mean[i] + code[i] / f64::from(width) / f64::from(height));
+        }
+        let found = [
+            ("corner_tl", code(0, 0)),
+            ("corner_tr", code(width - 1, 0)),
+            ("corner_bl", code(0, height - 1)),
+            ("corner_br", code(width - 1, height - 1)),
+            ("mean", mean),
+        ];
+        for (key, found) in found {
+            let expected = list(key);
+            let difference = found.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let allowed = 0.02;
+            if !expected.is_empty() && difference > allowed {
+                wrong.push(format!("{name} {key}: {found:?}, not {expected:?}"));
+            }
         }
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));

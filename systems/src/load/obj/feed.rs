@@ -15,6 +15,9 @@ pub(super) trait Check {
     /// Checks one line and appends what the parser is to read for it.
     fn line(&mut self, line: &Line<'_>, out: &mut Vec<u8>);
 
+    /// Checks what can be known only at the end of the file.
+    fn finish(&mut self);
+
     /// Where findings go.
     fn log(&mut self) -> &mut Log;
 }
@@ -45,6 +48,7 @@ impl<'a, R: BufRead, C: Check> Feed<'a, R, C> {
         if let Some(error) = feed.error {
             return Err(format!("cannot be read: {error}"));
         }
+        feed.check.finish();
         if feed.check.log().has_faults() {
             return Ok(None);
         }

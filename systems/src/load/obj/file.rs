@@ -1,6 +1,7 @@
 //! Opening text files, and finding those that a file names.
 
 use crate::load::fault::{Fault, nearest};
+use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -46,18 +47,21 @@ pub(super) fn resolve(folder: &Path, name: &str) -> PathBuf {
     if name.contains('\\') && !plain.is_file() { folder.join(name.replace('\\', "/")) } else { plain }
 }
 
-/// ` (did you mean …?)` if the folder of a missing file holds one with a name like it.
+/// ` (did you mean …?)` if the folder of a missing file holds one of the same kind with a name like it.
 pub(super) fn hint(path: &Path) -> String {
     /// Names looked at: a hint is not worth the time that huge folders take.
     const MOST_NAMES: usize = 1000;
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let (Some(name), Ok(entries)) = (path.file_name(), folder.read_dir()) else { return String::new() };
-    let name = name.to_string_lossy();
-    let entries = entries.take(MOST_NAMES).flatten();
-    let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+    let same_kind = |other: &PathBuf| {
+        let [a, b] = [path, other.as_path()].map(|path| path.extension().map(OsStr::to_ascii_lowercase));
+        a == b && other.file_name() != Some(name)
+    };
+    let paths = entries.take(MOST_NAMES).flatten().map(|entry| entry.path()).filter(same_kind);
+    let mut names: Vec<String> =
+        paths.filter_map(|path| Some(path.file_name()?.to_string_lossy().into_owned())).collect();
     names.sort();
-    let near = names.iter().map(String::as_str).filter(|other| *other != name);
-    nearest(&name, near).map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()
+    nearest(&name.to_string_lossy(), names.iter().map(String::as_str)).map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default()
 }
 
 #[cfg(test)]

@@ -78,11 +78,12 @@ pub fn read(path: &Path) -> Result<(Model, Vec<Notice>), Faults> {
     let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let parsed = Feed::parse(reader, &mut scan, |feed| tobj::load_obj_buf(feed, &options, no_library));
     let parsed = parsed.map_err(|message| whole(Fault::of_file(path, message)))?;
-    scan.finish();
     let mut materials = Materials::read(path, &mut scan);
     let mut faults = vec![];
     let mut model = None;
-    if let Some((mut models, _)) = parsed.filter(|_| !scan.log.has_faults()) {
+    if scan.faces == 0 && !scan.log.has_faults() {
+        faults.push(Fault::of_file(path, "has no faces"));
+    } else if let Some((mut models, _)) = parsed.filter(|_| !scan.log.has_faults()) {
         let parsed = models.pop().filter(|model| models.is_empty() && mesh::agrees(&model.mesh, &scan));
         let built = match parsed {
             Some(model) => mesh::build(model.mesh, &scan.runs, scan.names.len() as u16, &mut scan.log)
@@ -163,7 +164,8 @@ impl Materials {
             if self.libraries.is_empty() {
                 log.notice(Some(at), "a material without a library that could be read is plain white");
             } else {
-                let near = nearest(name, self.by_name.keys().map(String::as_str));
+                let known = self.by_name.keys().map(String::as_str).filter(|known| !known.is_empty());
+                let near = nearest(name, known);
                 let hint = near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default();
                 log.notice(Some(at), &format!("there is no material `{name}`{hint}: it is plain white"));
             }

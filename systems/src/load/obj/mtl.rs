@@ -77,7 +77,8 @@ impl Check for Scan {
                 Ok(())
             }
             other => {
-                self.log.notice(Some(at), &format!("{} {} passed over", sort(other), quoted(other)));
+                let text = format!("{} passed over: {}", quoted(other), reason(other));
+                self.log.notice(Some(at), &text);
                 Ok(())
             }
         };
@@ -85,6 +86,8 @@ impl Check for Scan {
             self.log.fault(at, message);
         }
     }
+
+    fn finish(&mut self) {}
 
     fn log(&mut self) -> &mut Log {
         &mut self.log
@@ -123,10 +126,14 @@ impl Scan {
             self.log.notice(Some(line.position(halo.offset)), "the option `-halo` passed over");
         }
         let numbers = numbers(line, 1 + usize::from(halo.is_some()))?;
-        let &[value] = numbers.as_slice() else {
-            let message = format!("{} has 1 number, this has {}", quoted(keyword.text), numbers.len());
+        let Some(value) = numbers.first() else {
+            let message = format!("{} has 1 number, this has none", quoted(keyword.text));
             return Err((line.position(keyword.offset), message));
         };
+        if numbers.len() > 1 {
+            let text = format!("{} has 1 number: those after it passed over", quoted(keyword.text));
+            self.log.notice(Some(line.position(keyword.offset)), &text);
+        }
         match keyword.text {
             // Some exporters write `Tr` the wrong way round: where `d` is present it is the one to trust.
             b"Tr" if self.has_dissolve => {}
@@ -187,13 +194,13 @@ fn most_arguments(word: &[u8]) -> usize {
     }
 }
 
-/// What a statement that has no counterpart in a material is.
-fn sort(keyword: &[u8]) -> &'static str {
+/// Why a statement is passed over.
+fn reason(keyword: &[u8]) -> &'static str {
     const MAPS: [&[u8]; 6] = [b"map_", b"bump", b"disp", b"decal", b"refl", b"norm"];
     match keyword {
-        _ if MAPS.iter().any(|map| keyword.starts_with(map)) => "texture other than `map_Kd`,",
+        _ if MAPS.iter().any(|map| keyword.starts_with(map)) => "of the textures only `map_Kd` is read",
         b"Ke" | b"Tf" | b"sharpness" | b"Km" | b"Pr" | b"Pm" | b"Ps" | b"Pc" | b"Pcr" | b"aniso" | b"anisor" => {
-            "property without a counterpart,"
+            "a property without a counterpart"
         }
         _ => "unknown statement",
     }

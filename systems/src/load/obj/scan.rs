@@ -85,19 +85,6 @@ impl Scan {
         }
     }
 
-    /// Checks what can be known only at the end of the file.
-    pub(super) fn finish(&mut self) {
-        for Ahead { at, kind, index } in self.ahead.drain(..) {
-            let count = self.counts[kind];
-            if index > count {
-                self.log.fault(at, beyond(kind, index, count));
-            }
-        }
-        if self.faces == 0 && !self.log.has_faults() {
-            self.log.fault(Position { line: 1, column: 1 }, "the file has no faces");
-        }
-    }
-
     /// Checks a statement of numbers and passes those on that the parser reads, absent ones as zero.
     fn numbers(&mut self, line: &Line<'_>, keyword: Word<'_>, kind: Numbers, out: &mut Vec<u8>) {
         self.counts[kind.counted] += 1;
@@ -191,7 +178,7 @@ impl Scan {
         Some(corner)
     }
 
-    /// An index counted from 1. Those that point ahead are noted down for [`Scan::finish`].
+    /// An index counted from 1. Those that point ahead are noted down for the end of the file.
     fn absolute(&mut self, line: &Line<'_>, offset: usize, kind: usize, index: i64) -> Result<usize, String> {
         let count = self.counts[kind];
         let what = REFERRED[kind];
@@ -279,8 +266,20 @@ impl Check for Scan {
             // Names and smoothing of groups: a mesh is one object, smooth where it has normals.
             b"o" | b"g" | b"s" => {}
             other => {
-                let statement = quoted(other);
-                self.log.notice(Some(at()), &format!("{} {statement} passed over", sort(other)));
+                let text = format!("{} passed over: {}", quoted(other), reason(other));
+                self.log.notice(Some(at()), &text);
+            }
+        }
+    }
+
+    fn finish(&mut self) {
+        for Ahead { at, kind, index } in self.ahead.drain(..) {
+            let (count, what) = (self.counts[kind], REFERRED[kind]);
+            if kind > 0 && count == 0 {
+                // Exporters leave out what was not asked for, but not always the references to it.
+                self.log.notice(Some(at), &format!("the file has no {what}s: a corner's index of one is passed over"));
+            } else if index > count {
+                self.log.fault(at, format!("there is no {what} {index}: the file has {count}"));
             }
         }
     }
@@ -290,21 +289,17 @@ impl Check for Scan {
     }
 }
 
-/// What a statement that makes no face is.
-fn sort(keyword: &[u8]) -> &'static str {
+/// Why a statement is passed over.
+fn reason(keyword: &[u8]) -> &'static str {
     match keyword {
-        b"p" | b"l" => "points and lines have no surface:",
+        b"p" | b"l" => "points and lines have no surface",
         b"vp" | b"cstype" | b"deg" | b"bmat" | b"step" | b"curv" | b"curv2" | b"surf" | b"parm" | b"trim" | b"hole"
-        | b"scrv" | b"sp" | b"end" | b"con" | b"mg" | b"ctech" | b"stech" => "curved surfaces are not read:",
+        | b"scrv" | b"sp" | b"end" | b"con" | b"mg" | b"ctech" | b"stech" => "curved surfaces are not read",
         b"bevel" | b"c_interp" | b"d_interp" | b"lod" | b"shadow_obj" | b"trace_obj" | b"maplib" | b"usemap" => {
-            "display attribute"
+            "a display attribute"
         }
         _ => "unknown statement",
     }
-}
-
-fn beyond(kind: usize, index: usize, count: usize) -> String {
-    format!("there is no {} {index}: the file has {count}", REFERRED[kind])
 }
 
 /// Appends a number in decimal digits.
