@@ -181,18 +181,28 @@ fn every_encoding_of_a_card_shows_the_same() {
             let code = code(x, y);
             mean = std::array::from_fn(|i| mean[i] + code[i] / f64::from(width) / f64::from(height));
         }
+        // The index samples the corners two pixels inwards.
+        let [left, top] = [width, height].map(|size| 2.min(size - 1));
+        let [right, bottom] = [width, height].map(|size| size.saturating_sub(3));
         let found = [
-            ("corner_tl", code(0, 0)),
-            ("corner_tr", code(width - 1, 0)),
-            ("corner_bl", code(0, height - 1)),
-            ("corner_br", code(width - 1, height - 1)),
+            ("corner_tl", code(left, top)),
+            ("corner_tr", code(right, top)),
+            ("corner_bl", code(left, bottom)),
+            ("corner_br", code(right, bottom)),
             ("mean", mean),
         ];
         for (key, found) in found {
             let expected = list(key);
             let difference = found.iter().zip(&expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-            let allowed = 0.02;
-            if !expected.is_empty() && difference > allowed {
+            let allowed = match (name.ends_with(".jpg"), key) {
+                (false, _) => 0.02,
+                // Decoders of lossy images may differ in rounding, and in how they spread colours that are stored coarser.
+                (true, "mean") => 0.5,
+                (true, _) => 3.0,
+            };
+            // The decoder that made the index cannot narrow 16 bits to 8: all its values are 255.
+            let is_known = !expected.is_empty() && name != "card_gray16.png";
+            if is_known && difference > allowed {
                 wrong.push(format!("{name} {key}: {found:?}, not {expected:?}"));
             }
         }

@@ -6,18 +6,11 @@ use std::fs::File;
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
-/// Largest file read. No file below it holds more vertices or corners than 32-bit indices can tell apart.
-const MOST_BYTES: u64 = 4 << 30;
-
 /// Opens a text file behind its byte order mark.
 ///
 /// # Errors
-/// What cannot be opened, is no regular file, is too large, or is UTF-16.
-pub(super) fn open(path: &Path) -> Result<impl BufRead + use<>, Fault> {
-    open_up_to(path, MOST_BYTES)
-}
-
-fn open_up_to(path: &Path, most: u64) -> Result<impl BufRead + use<>, Fault> {
+/// What cannot be opened, is no regular file, is larger than `most` bytes, or is UTF-16.
+pub(super) fn open(path: &Path, most: u64) -> Result<impl BufRead + use<>, Fault> {
     let fault = |message: String| Fault::of_file(path, message);
     let unreadable = |error: std::io::Error| fault(format!("cannot be read: {error}"));
     // Before opening: to open a pipe would wait for someone to write to it.
@@ -71,7 +64,7 @@ mod tests {
     #[test]
     fn what_is_no_text_file_is_refused() {
         let folder = tempfile::tempdir().expect("a folder");
-        let message = |path: &Path| open_up_to(path, 8).err().map(|fault| fault.message);
+        let message = |path: &Path| open(path, 8).err().map(|fault| fault.message);
         assert_eq!(message(folder.path()).as_deref(), Some("is not a file"));
         let file = folder.path().join("box.obj");
         std::fs::write(&file, "v 0 0 0\nv").expect("written");

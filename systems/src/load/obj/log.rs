@@ -51,11 +51,16 @@ impl Log {
     pub(super) fn notice(&mut self, at: Option<Position>, text: &str) {
         if let Some(tally) = self.notices.iter_mut().find(|tally| tally.text == text) {
             tally.count += 1;
-        } else if self.notices.len() < MOST_NOTICES {
+        } else if self.has_room() {
             self.notices.push(Tally { text: text.to_owned(), count: 1, first: at });
         } else {
             self.further_notices += 1;
         }
+    }
+
+    /// Whether another kind of notice would be kept with its text.
+    pub(super) fn has_room(&self) -> bool {
+        self.notices.len() < MOST_NOTICES
     }
 
     fn keep_first(&mut self) {

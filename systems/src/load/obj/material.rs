@@ -2,6 +2,7 @@
 
 use super::log::Log;
 use super::mtl::Entry;
+use super::word::quoted;
 use snell_components::{color::Rgb, material::Highlight, texture::Image};
 use std::sync::Arc;
 
@@ -56,10 +57,11 @@ impl ModelMaterial {
     /// What an entry of a library says, but for its texture. Values out of range are brought into it, with a notice.
     pub(super) fn of(entry: &Entry, log: &mut Log) -> Self {
         let parsed = &entry.parsed;
+        let name = quoted(entry.name.as_bytes());
         let mut limit = |what: &str, value: f64, least: f64, most: f64| {
             let limited = value.clamp(least, most);
             if limited != value {
-                let text = format!("material `{}`: `{what}` of {value} is taken as {limited}", entry.name);
+                let text = format!("material {name}: `{what}` of {value} is taken as {limited}");
                 log.notice(Some(entry.at), &text);
             }
             limited
@@ -79,11 +81,11 @@ impl ModelMaterial {
         let opacity = limit("d", parsed.dissolve.map_or(1.0, f64::from), 0.0, 1.0);
         let index = parsed.optical_density.map(f64::from);
         if opacity == 0.0 {
-            let text = format!("material `{}` has no opacity: its faces do not show", entry.name);
+            let text = format!("material {name} has no opacity: its faces do not show");
             log.notice(Some(entry.at), &text);
         }
         if let Some(index) = index.filter(|&index| index <= 0.0) {
-            log.notice(Some(entry.at), &format!("material `{}`: `Ni` of {index} is no refractive index", entry.name));
+            log.notice(Some(entry.at), &format!("material {name}: `Ni` of {index} is no refractive index"));
         }
         let color = diffuse.unwrap_or(Rgb::ONE);
         Self {

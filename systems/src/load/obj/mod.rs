@@ -51,9 +51,19 @@ use mtl::Library;
 use scan::Scan;
 use snell_components::shape::TriangleMesh;
 use snell_components::texture::Image;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use word::quoted;
+
+/// Largest model read. No file below it holds more vertices or corners than 32-bit indices can tell apart.
+const MOST_BYTES: u64 = 4 << 30;
+
+/// Material libraries read for one model.
+const MOST_LIBRARIES: usize = 256;
+
+/// Names compared to find one that was meant.
+const MOST_COMPARED: usize = 1000;
 
 /// A model as read from a file.
 #[derive(Clone, Debug)]
@@ -71,7 +81,7 @@ pub struct Model {
 /// All faults of the file and of its material libraries, up to a limit for each, with their lines and columns.
 pub fn read(path: &Path) -> Result<(Model, Vec<Notice>), Faults> {
     let whole = |fault: Fault| Faults(vec![fault]);
-    let reader = file::open(path).map_err(whole)?;
+    let reader = file::open(path, MOST_BYTES).map_err(whole)?;
     let mut scan = Scan::new(path);
     let options = tobj::LoadOptions::default();
     // Materials stay out of the parser's sight: they would split the mesh.
@@ -121,16 +131,21 @@ impl Materials {
     fn read(model: &Path, scan: &mut Scan) -> Self {
         let mut this = Self { libraries: vec![], by_name: BTreeMap::new(), textures: HashMap::new() };
         let folder = model.parent().unwrap_or(Path::new(""));
-        let mut seen = vec![];
+        let mut seen = HashSet::new();
         for (names, at) in std::mem::take(&mut scan.libraries) {
             for path in library_paths(folder, &names) {
-                if !seen.contains(&path) {
-                    match mtl::read(&path) {
-                        Ok(library) => this.add(library),
-                        Err(fault) => scan.log.notice(Some(at), &format!("material library {fault}")),
-                    }
-                    seen.push(path);
+                if seen.contains(&path) {
+                    continue;
                 }
+                if seen.len() == MOST_LIBRARIES {
+                    scan.log.notice(Some(at), "a material library beyond the number that is read");
+                    return this;
+                }
+                match mtl::read(&path) {
+                    Ok(library) => this.add(library),
+                    Err(fault) => scan.log.notice(Some(at), &format!("material library {fault}")),
+                }
+                seen.insert(path);
             }
         }
         this
@@ -139,7 +154,7 @@ impl Materials {
     fn add(&mut self, mut library: Library) {
         for (i, entry) in library.entries.iter().enumerate() {
             if self.by_name.contains_key(&entry.name) {
-                let text = format!("material `{}` is defined before; this one is passed over", entry.name);
+                let text = format!("material {} is defined before; this one is passed over", quoted(entry.name.as_bytes()));
                 library.log.notice(Some(entry.at), &text);
             } else {
                 self.by_name.insert(entry.name.clone(), (self.libraries.len(), i));
@@ -165,9 +180,10 @@ impl Materials {
                 log.notice(Some(at), "a material without a library that could be read is plain white");
             } else {
                 let known = self.by_name.keys().map(String::as_str).filter(|known| !known.is_empty());
-                let near = nearest(name, known);
+                let near = Some(name).filter(|_| log.has_room()).and_then(|name| nearest(name, known.take(MOST_COMPARED)));
                 let hint = near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default();
-                log.notice(Some(at), &format!("there is no material `{name}`{hint}: it is plain white"));
+                let name = quoted(name.as_bytes());
+                log.notice(Some(at), &format!("there is no material {name}{hint}: it is plain white"));
             }
             return ModelMaterial::named(name);
         };
