@@ -6,6 +6,7 @@
 //! from the corners of the image as it is stored.
 
 use super::fault::Fault;
+use super::file;
 use image::{DynamicImage, ImageReader, Limits};
 use snell_components::{color, texture::Image};
 use std::fs::File;
@@ -25,11 +26,7 @@ const MOST_BYTES: u64 = 1 << 30;
 /// A file that cannot be read, is no image of a known format, is damaged, too large, or has texels that are not finite.
 pub fn read(path: &Path) -> Result<Image, Fault> {
     let fault = |message: String| Fault::of_file(path, message);
-    let is_file = std::fs::metadata(path).map_err(|error| fault(format!("cannot be opened: {error}")))?.is_file();
-    // Before opening: to open a pipe would wait for someone to write to it.
-    if !is_file {
-        return Err(fault("is not a file".into()));
-    }
+    file::check(path)?;
     let reader = ImageReader::open(path)
         .and_then(ImageReader::with_guessed_format)
         .map_err(|error| fault(format!("cannot be read: {error}")))?;
@@ -64,7 +61,9 @@ fn decode(mut reader: ImageReader<BufReader<File>>) -> image::ImageResult<Dynami
 /// The texels in linear light.
 fn linear(decoded: DynamicImage) -> Vec<[f32; 3]> {
     match decoded {
-        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => decoded.into_rgb32f().pixels().map(|p| p.0).collect(),
+        DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
+            decoded.into_rgb32f().pixels().map(|p| p.0).collect()
+        }
         DynamicImage::ImageLuma8(_)
         | DynamicImage::ImageLumaA8(_)
         | DynamicImage::ImageRgb8(_)
@@ -154,7 +153,7 @@ mod tests {
         std::fs::write(&text, "no image").expect("written");
         assert_eq!(message(&text), "is no PNG, JPEG, BMP, TGA or EXR image");
         assert_eq!(message(folder.path()), "is not a file");
-        assert!(message(&path.with_extension("jpg")).starts_with("cannot be opened: "));
+        assert_eq!(message(&path.with_extension("jpg")), "does not exist");
     }
 
     #[test]

@@ -32,7 +32,12 @@ struct Lists {
 }
 
 /// The mesh; its slots are those of the runs' materials, faces without one have the slot after the last.
-pub(super) fn build(parsed: tobj::Mesh, runs: &[Run], default_slot: u16, log: &mut Log) -> Result<TriangleMesh, MeshError> {
+pub(super) fn build(
+    parsed: tobj::Mesh,
+    runs: &[Run],
+    default_slot: u16,
+    log: &mut Log,
+) -> Result<TriangleMesh, MeshError> {
     let positions = parsed.positions.as_chunks().0.to_vec();
     let any_uvs = runs.iter().any(|run| run.has.uvs);
     let any_normals = runs.iter().any(|run| run.has.normals);
@@ -53,9 +58,8 @@ pub(super) fn build(parsed: tobj::Mesh, runs: &[Run], default_slot: u16, log: &m
             } else {
                 cut(vertices, &positions, &mut cuts, log);
             }
-            let of = |indices: &[u32], cut: [usize; 3]| {
-                indices.get(range.clone()).map(|indices| cut.map(|i| indices[i]))
-            };
+            let of =
+                |indices: &[u32], cut: [usize; 3]| indices.get(range.clone()).map(|indices| cut.map(|i| indices[i]));
             for &cut in &cuts {
                 lists.triangles.push(cut.map(|i| vertices[i]));
                 if any_uvs {

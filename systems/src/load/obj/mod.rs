@@ -29,7 +29,6 @@
 //! Whatever else a material says is passed over with a notice.
 
 mod feed;
-mod file;
 mod lines;
 mod log;
 mod material;
@@ -44,7 +43,7 @@ mod word;
 pub use material::ModelMaterial;
 
 use super::fault::{Fault, Faults, Notice, Position, nearest};
-use super::image;
+use super::{file, image};
 use feed::Feed;
 use log::Log;
 use mtl::Library;
@@ -81,7 +80,7 @@ pub struct Model {
 /// All faults of the file and of its material libraries, up to a limit for each, with their lines and columns.
 pub fn read(path: &Path) -> Result<(Model, Vec<Notice>), Faults> {
     let whole = |fault: Fault| Faults(vec![fault]);
-    let reader = file::open(path, MOST_BYTES).map_err(whole)?;
+    let reader = file::open_text(path, MOST_BYTES).map_err(whole)?;
     let mut scan = Scan::new(path);
     let options = tobj::LoadOptions::default();
     // Materials stay out of the parser's sight: they would split the mesh.
@@ -154,7 +153,8 @@ impl Materials {
     fn add(&mut self, mut library: Library) {
         for (i, entry) in library.entries.iter().enumerate() {
             if self.by_name.contains_key(&entry.name) {
-                let text = format!("material {} is defined before; this one is passed over", quoted(entry.name.as_bytes()));
+                let text =
+                    format!("material {} is defined before; this one is passed over", quoted(entry.name.as_bytes()));
                 library.log.notice(Some(entry.at), &text);
             } else {
                 self.by_name.insert(entry.name.clone(), (self.libraries.len(), i));
@@ -180,7 +180,8 @@ impl Materials {
                 log.notice(Some(at), "a material without a library that could be read is plain white");
             } else {
                 let known = self.by_name.keys().map(String::as_str).filter(|known| !known.is_empty());
-                let near = Some(name).filter(|_| log.has_room()).and_then(|name| nearest(name, known.take(MOST_COMPARED)));
+                let near =
+                    Some(name).filter(|_| log.has_room()).and_then(|name| nearest(name, known.take(MOST_COMPARED)));
                 let hint = near.map(|near| format!(" (did you mean `{near}`?)")).unwrap_or_default();
                 let name = quoted(name.as_bytes());
                 log.notice(Some(at), &format!("there is no material {name}{hint}: it is plain white"));
@@ -196,7 +197,7 @@ impl Materials {
             let read = || match image::read(&path) {
                 Ok(image) => Some(Arc::new(image)),
                 Err(fault) => {
-                    log.notice(Some(entry.at), &format!("texture {fault}{}", missing_hint(&path)));
+                    log.notice(Some(entry.at), &format!("texture {fault}"));
                     None
                 }
             };
@@ -205,10 +206,6 @@ impl Materials {
         }
         material
     }
-}
-
-fn missing_hint(path: &Path) -> String {
-    if path.exists() { String::new() } else { file::hint(path) }
 }
 
 /// The libraries of one `mtllib` statement: one name that may hold spaces, or several.

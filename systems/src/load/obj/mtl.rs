@@ -4,11 +4,11 @@
 //! however it was written.
 
 use super::feed::{Check, Feed};
-use super::file;
 use super::lines::Line;
 use super::log::Log;
 use super::word::{Word, integer, name, number, quoted, words};
 use crate::load::fault::{Fault, Position};
+use crate::load::file;
 use std::path::Path;
 
 /// Largest library read: many times what any needs, as a short line of it may take much memory.
@@ -32,7 +32,7 @@ pub(super) struct Library {
 /// # Errors
 /// The file cannot be read, or the parser failed on what had passed the check.
 pub(super) fn read(path: &Path) -> Result<Library, Fault> {
-    let reader = file::open(path, MOST_BYTES)?;
+    let reader = file::open_text(path, MOST_BYTES)?;
     let mut scan = Scan { log: Log::new(path), names: vec![], has_dissolve: false };
     let parsed = Feed::parse(reader, &mut scan, tobj::load_mtl_buf);
     let materials = parsed.map_err(|message| Fault::of_file(path, message))?.map(|(materials, _)| materials);

@@ -122,7 +122,12 @@ mod tests {
         let mut sum = 0.0;
         for triangle in &triangles {
             let part = newell(&triangle.map(|i| corners[i])).dot(whole.normalize());
-            assert!(part >= -1e-12 * whole.length(), "flipped: {triangle:?} of {} corners from {:?}", corners.len(), corners[0]);
+            assert!(
+                part >= -1e-12 * whole.length(),
+                "flipped: {triangle:?} of {} corners from {:?}",
+                corners.len(),
+                corners[0]
+            );
             sum += part;
         }
         assert!((sum - whole.length()).abs() <= 1e-9 * whole.length());
@@ -180,7 +185,8 @@ mod tests {
 
     #[test]
     fn a_hole_joined_to_the_rim_stays_open() {
-        let (rim, hole) = ([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]], [[3.0, 3.0], [3.0, 6.0], [6.0, 6.0], [6.0, 3.0]]);
+        let (rim, hole) =
+            ([[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]], [[3.0, 3.0], [3.0, 6.0], [6.0, 6.0], [6.0, 3.0]]);
         let ring: Vec<_> = rim.into_iter().chain([rim[0]]).chain(hole).chain([hole[0]]).collect();
         check_everywhere(&ring);
     }

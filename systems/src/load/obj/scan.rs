@@ -240,10 +240,14 @@ const VERTEX: Numbers = Numbers {
     kept: 3,
     rule: "a vertex has 3 numbers, 4 with a weight, 6 or 7 with a colour",
 };
-const UV: Numbers =
-    Numbers { keyword: b"vt", counted: 1, allowed: &[1, 2, 3], kept: 2, rule: "a texture coordinate has 1 to 3 numbers" };
-const NORMAL: Numbers =
-    Numbers { keyword: b"vn", counted: 2, allowed: &[3], kept: 3, rule: "a normal has 3 numbers" };
+const UV: Numbers = Numbers {
+    keyword: b"vt",
+    counted: 1,
+    allowed: &[1, 2, 3],
+    kept: 2,
+    rule: "a texture coordinate has 1 to 3 numbers",
+};
+const NORMAL: Numbers = Numbers { keyword: b"vn", counted: 2, allowed: &[3], kept: 3, rule: "a normal has 3 numbers" };
 
 impl Check for Scan {
     fn line(&mut self, line: &Line<'_>, out: &mut Vec<u8>) {

@@ -45,7 +45,8 @@ fn area(mesh: &TriangleMesh) -> DVec3 {
 
 #[test]
 fn a_plain_file_is_read_without_a_notice() {
-    let (model, notices) = read(&format!("# a tetrahedron\no t\ng a b\ns off\n{CORNER}f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
+    let (model, notices) =
+        read(&format!("# a tetrahedron\no t\ng a b\ns off\n{CORNER}f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"));
     assert_eq!((model.mesh.len(), model.materials.len(), notices), (4, 0, vec![]));
     assert_eq!(model.mesh.corners(3), [DVec3::X, DVec3::Y, DVec3::Z]);
 }
@@ -237,7 +238,7 @@ fn slots_are_the_materials_that_faces_use() {
     assert_eq!(
         notices,
         [
-            "model.obj:1:1: material library missing.mtl: cannot be opened: No such file or directory (os error 2)",
+            "model.obj:1:1: material library missing.mtl: does not exist",
             "model.obj:10:1: there is no material `Read` (did you mean `red`?): it is plain white",
         ]
     );
@@ -319,7 +320,8 @@ fn materials_become_terms_of_the_shading_equation() {
 
 #[test]
 fn material_values_out_of_range_are_brought_into_it() {
-    let (found, notices) = material("Kd -1 0.5 2\nKs 4 4 4\nNs 1e38\nd 1.5\nNi -1\nillum 300\nKe 1 1 1\nmap_Bump -bm 1 a.png\n");
+    let (found, notices) =
+        material("Kd -1 0.5 2\nKs 4 4 4\nNs 1e38\nd 1.5\nNi -1\nillum 300\nKe 1 1 1\nmap_Bump -bm 1 a.png\n");
     assert_eq!(found.color, Rgb::new(0.0, 0.5, 2.0));
     assert_eq!(found.highlight, Some(Highlight { strength: Rgb::splat(4.0), exponent: 1e6 }));
     assert_eq!((found.opacity, found.mirror), (1.0, None));
@@ -368,8 +370,7 @@ fn textures_are_found_beside_the_library_and_shared() {
             "a.mtl:4:15: the texture option `-o` passed over",
             "a.mtl:4:20: the texture option `-clamp` passed over",
             "a.mtl:4:30: the texture option `-mm` passed over",
-            "a.mtl:5:1: texture my rad.png: cannot be opened: No such file or directory (os error 2) \
-             (did you mean `my red.png`?)",
+            "a.mtl:5:1: texture my rad.png: does not exist (did you mean `my red.png`?)",
         ]
     );
 }
