@@ -384,3 +384,71 @@ fn names_that_mean_something_to_the_parser_do_no_harm() {
         assert_eq!((model.materials[0].color, notices), (Rgb::Y, vec![]), "{name}");
     }
 }
+
+#[test]
+fn what_passes_the_check_never_fails_in_the_parser() {
+    const OBJ: &str = "mtllib a.mtl\no x\nv 0 0 0\nv 1.5e0 0 0\nv -0.5 +1. 0 # c\nv 0 0 1 1 0 0\nvt 0 1\nvt 0.5\nvn 0 0 1\n\
+                       usemtl a\nf 1/1/1 2/2/1 3/1/1\nf -1 -2 -3 \\\n 1\nusemtl b\nf 1//1 2//1 4//1\nl 1 2\ns 1\ng\nf 1/1 2/2 3/\n";
+    const MTL: &str = "newmtl a\nKa 0 0 0\nKd 0.5\nKs 1 1 1\nNs 10\nNi 1.5\nd -halo 0.5\nTr 0.5\nillum 7\n\
+                       map_Kd -s 1 2 b.png\nnewmtl b\nKe 1 1 1\nbump a.png\n";
+    const PIECES: [&[u8]; 24] = [
+        b" ",
+        b"\n",
+        b"\r",
+        b"/",
+        b"//",
+        b"-",
+        b"0",
+        b"9",
+        b".",
+        b"e",
+        b"#",
+        b"\\\n",
+        b"v",
+        b"f ",
+        b"vn",
+        b"vt",
+        b"nan",
+        b"\xff",
+        b"\0",
+        b"99999999999999999999",
+        b"newmtl",
+        b"usemtl ",
+        b"l 1 2 3\n",
+        b"\xc2\x85",
+    ];
+    let mut state = 7u64;
+    let mut random = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below
+    };
+    let mut mutated = |text: &str| {
+        let mut bytes = text.as_bytes().to_vec();
+        for _ in 0..1 + random(4) {
+            let at = random(bytes.len());
+            let end = (at + random(4)).min(bytes.len());
+            let piece = if random(3) == 0 { &[][..] } else { PIECES[random(PIECES.len())] };
+            bytes.splice(at..end, piece.iter().copied());
+        }
+        bytes
+    };
+    let (mut accepted, mut refused) = (0, 0);
+    for _ in 0..500 {
+        let (obj, mtl) = (mutated(OBJ), mutated(MTL));
+        let messages = match read_with(&obj, &[("a.mtl", &mtl)]) {
+            Ok((model, notices)) => {
+                accepted += 1;
+                assert!(model.mesh.len() + model.mesh.degenerate() > 0);
+                notices
+            }
+            Err(faults) => {
+                refused += 1;
+                assert!(!faults.is_empty());
+                faults
+            }
+        };
+        let failed = messages.iter().find(|message| message.contains("cannot be parsed"));
+        assert_eq!(failed, None, "{}\n{}", String::from_utf8_lossy(&obj), String::from_utf8_lossy(&mtl));
+    }
+    assert!(accepted > 50 && refused > 50, "{accepted} accepted, {refused} refused");
+}
