@@ -1,6 +1,12 @@
-//! scene text → `World`.
+//! Stage 0: scene text, and the files it names, become entities, or a list of everything that is wrong with them.
 
 mod fault;
+
+mod file;
+
+pub mod image;
+
+pub mod obj;
 
 pub use fault::{Fault, Faults, Notice, Position, nearest};
 
