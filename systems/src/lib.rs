@@ -1,1 +1,5 @@
-//! s
+//! The systems of Snell, in the order in which they run.
+
+pub mod registry;
+
+pub mod load;
