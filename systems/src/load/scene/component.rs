@@ -2,7 +2,7 @@
 
 use super::{
     node::{Field, Form, Node},
-    source::{Place, Report, Source, beside, did_you_mean},
+    source::{Place, Report, Source, beside},
     values::{Values, argument, check_names},
 };
 use crate::load::assets::Assets;
@@ -126,19 +126,8 @@ impl<'s> Reader<'_, 's> {
             Given::Named(fields) => fields,
             Given::Nothing | Given::Value(_) => &[],
         };
-        let text = self.values.text;
-        let faults = check_names(text, fields, &self.described);
+        let faults = check_names(self.values.text, here, fields, &self.described, &self.missing);
         self.values.faults.extend(faults.into_iter().map(|(offset, message)| (offset, format!(": {message}"))));
-        for &(name, about) in &self.missing {
-            // A field whose name is misspelt is not missing as well.
-            let misspelt = |field: &Field| {
-                let given = field.name(text);
-                !self.described.contains(&given) && !did_you_mean(given, [name]).is_empty()
-            };
-            if !fields.iter().any(misspelt) {
-                self.values.faults.push((here, format!(": missing field `{name}` ({about})")));
-            }
-        }
     }
 
     /// Reads `value` from what is written.

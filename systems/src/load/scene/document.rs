@@ -17,7 +17,7 @@ pub(super) const RESERVED: char = '#';
 pub(super) struct Document {
     pub(super) settings: Option<Node>,
     pub(super) includes: Vec<Include>,
-    pub(super) entities: Vec<Entry>,
+    pub(super) entities: Vec<Definition>,
 }
 
 /// A file whose entities are to be part of the scene.
@@ -37,7 +37,7 @@ pub(super) struct Include {
 
 /// An entity as written.
 #[derive(Debug)]
-pub(super) struct Entry {
+pub(super) struct Definition {
     pub(super) name: String,
     /// Where the name is written.
     pub(super) at: usize,
@@ -72,8 +72,8 @@ impl Reader<'_> {
         self.fault(found.span.start, format!("{subject}: expected {expected}, found {found_text}"));
     }
 
-    fn check_names(&mut self, subject: &str, fields: &[Field], known: &[&str]) {
-        for (offset, message) in check_names(self.text, fields, known) {
+    fn check_names(&mut self, subject: &str, here: usize, fields: &[Field], known: &[&str], required: &[(&str, &str)]) {
+        for (offset, message) in check_names(self.text, here, fields, known, required) {
             self.fault(offset, format!("{subject}: {message}"));
         }
     }
@@ -103,7 +103,7 @@ impl Reader<'_> {
             Some(field) if !self.is_version(&field.value) => return document,
             Some(_) => {}
         }
-        self.check_names("Scene", &fields, &["version", "settings", "include", "entities"]);
+        self.check_names("Scene", start, &fields, &["version", "settings", "include", "entities"], &[]);
         for field in fields {
             match field.name(self.text) {
                 "settings" => document.settings = Some(field.value),
@@ -150,7 +150,7 @@ impl Reader<'_> {
             self.unexpected("include", "a path in quotes or `(path: \"…\", prefix: \"…\", transform: […])`", &node);
             return None;
         };
-        self.check_names("include", &fields, &["path", "prefix", "transform"]);
+        self.check_names("include", at, &fields, &["path", "prefix", "transform"], &[("path", "the file")]);
         let mut path = None;
         for field in fields {
             match field.name(self.text) {
@@ -164,9 +164,6 @@ impl Reader<'_> {
             let message = "include.transform: a file that is placed needs a `prefix` too, which names its placement";
             self.fault(transform.span.start, message);
             return None;
-        }
-        if path.is_none() {
-            self.fault(at, "include: missing field `path`");
         }
         include.path = path??;
         Some(include)
@@ -193,7 +190,7 @@ impl Reader<'_> {
         }
     }
 
-    fn entities(&mut self, node: Node) -> Vec<Entry> {
+    fn entities(&mut self, node: Node) -> Vec<Definition> {
         match node.form {
             Form::Map(pairs) => pairs.into_iter().filter_map(|(name, value)| self.entity(&name, value)).collect(),
             _ => {
@@ -203,7 +200,7 @@ impl Reader<'_> {
         }
     }
 
-    fn entity(&mut self, key: &Node, value: Node) -> Option<Entry> {
+    fn entity(&mut self, key: &Node, value: Node) -> Option<Definition> {
         let Some(name) = key.string(self.text) else {
             self.unexpected("entities", "a name in quotes", key);
             return None;
@@ -220,6 +217,6 @@ impl Reader<'_> {
                 vec![]
             }
         };
-        Some(Entry { name, at, components })
+        Some(Definition { name, at, components })
     }
 }

@@ -153,16 +153,16 @@ impl<'s> Layout<'s> {
         let Scope { file, ref prefix, placement, .. } = self.scopes[scope];
         let prefix = prefix.clone();
         let Some(source) = sources.get(file) else { return };
-        for entry in &source.document.entities {
+        for definition in &source.document.entities {
             self.add(
                 sources,
                 report,
                 Named {
-                    name: format!("{prefix}{}", entry.name),
-                    written: &entry.name,
-                    place: Place { file, offset: entry.at },
+                    name: format!("{prefix}{}", definition.name),
+                    written: &definition.name,
+                    place: Place { file, offset: definition.at },
                     scope,
-                    content: Content::Components(&entry.components),
+                    content: Content::Components(&definition.components),
                 },
             );
         }

@@ -107,16 +107,15 @@ impl<'s> Links<'_, 's> {
     /// Checks the products of placements along parents.
     fn check_placements(&mut self, wholes: &[Whole]) {
         let parents: Vec<_> = wholes.iter().map(|whole| whole.parent).collect();
-        // Nothing stands where there is a fault already.
+        // `None` where there is a fault already.
         let mut worlds: Vec<Option<DAffine3>> = vec![None; wholes.len()];
         for number in self.order(&parents, Relation::Parent) {
             let (Some(whole), Some(entity)) = (wholes.get(number), self.layout.entities.get(number)) else { continue };
             let mut parts = whole.parts.iter().filter_map(|at| part(self.stated, *at));
             let own = parts.find(|part| part.entry.kind == Kind::Placement);
-            let local =
-                if whole.broken { None } else { Some(own.map_or(Some(DAffine3::IDENTITY), |own| own.placement)) };
+            let local = own.map_or(Some(DAffine3::IDENTITY), |own| own.placement).filter(|_| !whole.broken);
             let outer = whole.parent.map_or(Some(DAffine3::IDENTITY), |parent| worlds.get(parent).copied().flatten());
-            let (Some(Some(local)), Some(outer)) = (local, outer) else { continue };
+            let (Some(local), Some(outer)) = (local, outer) else { continue };
             let world = outer * local;
             if is_invertible(&world) {
                 if let Some(place) = worlds.get_mut(number) {

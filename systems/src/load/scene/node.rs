@@ -108,23 +108,25 @@ pub(super) fn parse(text: &str) -> Result<Node, (usize, String)> {
 
 /// A syntax error in plain words.
 fn explain(text: &str, error: &SpannedError) -> (usize, String) {
-    let at = offset(text, error.span.end.line, error.span.end.col);
-    // Behind the offending text stands the end of its span; the error is what starts there or earlier.
     let start = offset(text, error.span.start.line, error.span.start.col);
-    if text.get(start..).is_none_or(|rest| rest.trim().is_empty()) || (matches!(error.code, Error::Eof)) {
-        return (start.min(text.len()), "the file ends before the scene does: a bracket or quote is not closed".into());
-    }
-    let found = text.get(at..).and_then(|rest| rest.chars().next());
-    let found = found.map_or(String::new(), |c| format!(", found `{c}`"));
-    match &error.code {
-        Error::ExpectedComma => (at, format!("expected a comma or a closing bracket{found}")),
-        Error::ExpectedMapColon => (at, format!("expected a colon{found}")),
-        Error::ExceededRecursionLimit => (start, "values are nested too deep".into()),
-        Error::TrailingCharacters => (start, "expected the end of the file: the scene is complete before this".into()),
-        Error::UnexpectedChar(c) => (start, format!("expected a value, found `{c}`")),
-        Error::UnclosedBlockComment => (start, "this comment is not closed: `*/` is missing".into()),
-        Error::ExpectedStringEnd => (start, "this text is not closed: `\"` is missing".into()),
-        other => {
+    let end = offset(text, error.span.end.line, error.span.end.col);
+    let next = text.get(end..).unwrap_or_default().trim_start().chars().next();
+    let found = next.map_or(String::new(), |c| format!(", found `{c}`"));
+    match (&error.code, next) {
+        _ if text.trim().is_empty() => (0, "expected `Scene(version: 1, …)`, found an empty file".into()),
+        (Error::Eof, _) | (Error::ExpectedComma | Error::ExpectedMapColon, None) => {
+            (end, "the file ends before the scene does: a bracket is not closed".into())
+        }
+        (Error::ExpectedComma, _) => (end, format!("expected a comma or a closing bracket{found}")),
+        (Error::ExpectedMapColon, _) => (end, format!("expected a colon{found}")),
+        (Error::ExceededRecursionLimit, _) => (start, "values are nested too deep".into()),
+        (Error::TrailingCharacters, _) => {
+            (start, "expected the end of the file: the scene is complete before this".into())
+        }
+        (Error::UnexpectedChar(c), _) => (start, format!("expected a value, found `{c}`")),
+        (Error::UnclosedBlockComment, _) => (start, "this comment is not closed: `*/` is missing".into()),
+        (Error::ExpectedStringEnd, _) => (start, "this text is not closed: `\"` is missing".into()),
+        (other, _) => {
             let message = other.to_string();
             let mut letters = message.chars();
             let first = letters.next().map(|c| c.to_lowercase().to_string()).unwrap_or_default();

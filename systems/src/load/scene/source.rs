@@ -2,7 +2,12 @@
 
 use super::document::Document;
 use crate::load::fault::{Fault, Faults, nearest};
-use std::{cell::Cell, collections::BTreeSet, path::PathBuf};
+use std::{
+    cell::Cell,
+    collections::BTreeSet,
+    ops::RangeInclusive,
+    path::{Path, PathBuf},
+};
 
 /// One scene file.
 #[derive(Debug)]
@@ -76,15 +81,15 @@ impl Report {
     }
 }
 
-/// Longest name for which near ones are looked for.
-const LONGEST: usize = 100;
+/// Lengths of names for which near ones are looked for: every letter is near every other.
+const LENGTHS: RangeInclusive<usize> = 2..=100;
 
 /// The nearest of the known names as a question to end a message with; empty if none is near.
 pub(super) fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> String {
-    if name.len() > LONGEST {
+    if !LENGTHS.contains(&name.len()) {
         return String::new();
     }
-    let known = known.into_iter().filter(|candidate| candidate.len() <= LONGEST);
+    let known = known.into_iter().filter(|candidate| LENGTHS.contains(&candidate.len()));
     nearest(name, known).map_or(String::new(), |near| format!("; did you mean `{near}`?"))
 }
 
@@ -117,9 +122,5 @@ pub(super) fn excerpt(text: &str) -> String {
 
 /// A path that a file in `folder` writes, as seen from the scene's folder.
 pub(super) fn beside(folder: &str, written: &str) -> String {
-    if folder.is_empty() || std::path::Path::new(written).is_absolute() {
-        written.into()
-    } else {
-        format!("{folder}/{written}")
-    }
+    if folder.is_empty() || Path::new(written).is_absolute() { written.into() } else { format!("{folder}/{written}") }
 }

@@ -21,21 +21,42 @@ const STEPS: [&str; 6] = ["Translate", "Scale", "RotateX", "RotateY", "RotateZ",
 /// A fault at a byte of the text.
 pub(super) type Complaint = (usize, String);
 
-/// Faults of names that are not known or given twice.
-pub(super) fn check_names(text: &str, fields: &[Field], known: &[&str]) -> Vec<Complaint> {
-    let mut seen: Vec<&str> = vec![];
+/// Faults of the names of `fields`: those that are not known or given twice, and at `here` those that are missing.
+///
+/// Required names come with their meaning.
+pub(super) fn check_names(
+    text: &str,
+    here: usize,
+    fields: &[Field],
+    known: &[&str],
+    required: &[(&str, &str)],
+) -> Vec<Complaint> {
+    let (mut seen, mut misspelt): (Vec<&str>, Vec<&str>) = (vec![], vec![]);
     let mut faults = vec![];
     for field in fields {
         let name = field.name(text);
-        if !known.contains(&name) {
+        let fault = if !known.contains(&name) {
+            misspelt.push(name);
             let near = did_you_mean(name, known.iter().copied());
-            let (separator, all) = (if near.is_empty() { ";" } else { "" }, listed(known.iter().copied(), "and"));
-            let fields = if all.is_empty() { "; there are none".into() } else { format!("{separator} fields: {all}") };
-            faults.push((field.name.start, format!("unknown field {}{near}{fields}", excerpt(name))));
+            let all = match (known.is_empty(), near.is_empty()) {
+                (true, _) => "; there are none".into(),
+                (_, true) => format!("; fields are {}", listed(known.iter().copied(), "and")),
+                _ => format!(" Fields are {}", listed(known.iter().copied(), "and")),
+            };
+            format!("unknown field {}{near}{all}", excerpt(name))
         } else if seen.contains(&name) {
-            faults.push((field.name.start, format!("field `{name}` is given twice")));
+            format!("field `{name}` is given twice")
         } else {
             seen.push(name);
+            continue;
+        };
+        faults.push((field.name.start, fault));
+    }
+    for (name, about) in required {
+        // A field whose name is misspelt is not missing as well.
+        let is_near = |given: &&str| !did_you_mean(given, [*name]).is_empty();
+        if !seen.contains(name) && !misspelt.iter().any(is_near) {
+            faults.push((here, format!("missing field `{name}` ({about})")));
         }
     }
     faults
@@ -208,27 +229,22 @@ impl<'a> Values<'a> {
 
     /// A turn about any axis.
     fn turn(&mut self, node: &Node) -> Option<Step> {
-        let Form::Tagged(_, inner) = &node.form else {
+        let inner = match &node.form {
+            Form::Tagged(_, inner) => Some(&inner.form),
+            _ => None,
+        };
+        let Some(Form::Fields(fields)) = inner else {
             self.unexpected(node, "`Rotate(axis: (x, y, z), degrees: …)`");
             return None;
         };
-        let Form::Fields(fields) = &inner.form else {
-            self.unexpected(node, "`Rotate(axis: (x, y, z), degrees: …)`");
-            return None;
-        };
-        self.faults.extend(check_names(self.text, fields, &["axis", "degrees"]));
+        const REQUIRED: [(&str, &str); 2] = [("axis", "direction of the axis"), ("degrees", "angle")];
+        self.faults.extend(check_names(self.text, node.span.start, fields, &["axis", "degrees"], &REQUIRED));
+        let find = |name: &str| fields.iter().find(|field| field.name(self.text) == name).map(|field| &field.value);
+        let (axis, degrees) = (find("axis"), find("degrees"));
         let any = Spec::any("");
-        let axis = self.required(node, fields, "axis").map(|value| self.vector(value, any.nonzero()));
-        let degrees = self.required(node, fields, "degrees").map(|value| self.number(value, any.range));
-        Some(Step::Rotate { axis: axis??, degrees: degrees?? })
-    }
-
-    fn required<'n>(&mut self, node: &Node, fields: &'n [Field], name: &str) -> Option<&'n Node> {
-        let field = fields.iter().find(|field| field.name(self.text) == name);
-        if field.is_none() {
-            self.faults.push((node.span.start, format!("missing field `{name}`")));
-        }
-        field.map(|field| &field.value)
+        let axis = axis.and_then(|value| self.vector(value, any.nonzero()));
+        let degrees = degrees.and_then(|value| self.number(value, any.range));
+        Some(Step::Rotate { axis: axis?, degrees: degrees? })
     }
 }
 
