@@ -1,6 +1,6 @@
 //! Reads scenes: RON text with named entities, each a list of components.
 //!
-//! In order: the texts of all files ([`include`]), what each says ([`node`], [`document`]), the components of every
+//! In order: the texts of all files ([`mod@include`]), what each says ([`node`], [`document`]), the components of every
 //! entity ([`entity`], [`component`], [`values`]), what entities take from each other ([`links`]); and only if nothing at
 //! all is wrong, the entities in the world ([`spawn`]).
 

@@ -38,10 +38,13 @@ pub(super) fn check_names(
         let fault = if !known.contains(&name) {
             misspelt.push(name);
             let near = did_you_mean(name, known.iter().copied());
-            let all = match (known.is_empty(), near.is_empty()) {
-                (true, _) => "; there are none".into(),
-                (_, true) => format!("; fields are {}", listed(known.iter().copied(), "and")),
-                _ => format!(" Fields are {}", listed(known.iter().copied(), "and")),
+            let names = listed(known.iter().copied(), "and");
+            let all = match (known, near.is_empty()) {
+                ([], _) => "; there are none".into(),
+                ([_], true) => format!("; the only field is {names}"),
+                ([_], false) => format!(" The only field is {names}"),
+                (_, true) => format!("; fields are {names}"),
+                (_, false) => format!(" Fields are {names}"),
             };
             format!("unknown field {}{near}{all}", excerpt(name))
         } else if seen.contains(&name) {
@@ -82,7 +85,9 @@ impl<'a> Values<'a> {
             _ => None,
         };
         match number {
-            Some(x) if !(x.abs() <= LARGEST) => self.unexpected(node, "a finite number, at most 3.4e38 in size"),
+            Some(x) if x.is_nan() || x.abs() > LARGEST => {
+                self.unexpected(node, "a finite number, at most 3.4e38 in size")
+            }
             Some(x) if range.contains(x) => return Some(x),
             _ => self.unexpected(node, &format!("a number{}", limits(range))),
         }
