@@ -11,6 +11,7 @@ use crate::{
     registry::{Entry, Insert, Kind, Registry},
 };
 use glam::DAffine3;
+use snell_components::{describe::Describe, transform::Transform};
 use std::collections::HashMap;
 
 /// How entities refer to each other.
@@ -136,34 +137,20 @@ impl<'s> Reader<'_, 's> {
     pub(super) fn entity(&mut self, entity: &Named<'s>) -> Stated<'s> {
         let mut stated = Stated { parts: vec![], links: [None; 3], broken: false };
         let Some(source) = self.sources.get(entity.place.file) else { return stated };
-        let subject = format!("{:?}", entity.written);
         match entity.content {
             Content::Steps(steps) => {
                 let written = Written { source, place: entity.place, given: Given::Value(steps) };
-                self.part(&mut stated, "Transform", written, "include.transform");
+                self.part(&mut stated, Transform::TAG, written, "include.transform");
             }
             Content::Components(components) => {
-                // Tags as they come, to tell doubles with the line of the first.
-                let mut tags: Vec<(&str, Place)> = vec![];
+                let mut tags = vec![];
                 for node in components {
                     let place = Place { offset: node.span.start, ..entity.place };
-                    match node.tag(&source.text) {
-                        Some(tag) => match tags.iter().find(|(first, _)| *first == tag) {
-                            Some((_, first)) => {
-                                let line = source.line(first.offset);
-                                let message = format!("{subject}: `{tag}` is given twice, first in line {line}");
-                                self.report.add(place, message);
-                            }
-                            None if self.component(&mut stated, entity, tag, node, &subject) => tags.push((tag, place)),
-                            None => stated.broken = true,
-                        },
-                        None => {
-                            let found = excerpt(node.text(&source.text));
-                            let message =
-                                format!("{subject}: expected a component, as `Sphere(radius: 1)`, found {found}");
-                            self.report.add(place, message);
-                            stated.broken = true;
-                        }
+                    let written = Written { source, place, given: Given::of(node) };
+                    let known = self.tag(entity, node, written, &mut tags);
+                    stated.broken |= known.is_none();
+                    if let Some((tag, role)) = known {
+                        self.component(&mut stated, entity, (tag, role), written);
                     }
                 }
             }
@@ -171,42 +158,60 @@ impl<'s> Reader<'_, 's> {
         stated
     }
 
-    /// Reads one component; whether its tag is known.
+    /// The tag of a component and what it is, if it is known and not among the `tags` so far, to which it is added.
+    fn tag(
+        &mut self,
+        entity: &Named<'s>,
+        node: &Node,
+        written: Written<'s>,
+        tags: &mut Vec<(&'s str, Place)>,
+    ) -> Option<(&'s str, Role<'s>)> {
+        let (source, place, subject) = (written.source, written.place, entity.written);
+        let Some(tag) = node.tag(&source.text) else {
+            let found = excerpt(node.text(&source.text));
+            let message = format!("{subject:?}: expected a component, as `Sphere(radius: 1)`, found {found}");
+            self.report.add(place, message);
+            return None;
+        };
+        if let Some((_, first)) = tags.iter().find(|(known, _)| *known == tag) {
+            let line = source.line(first.offset);
+            self.report.add(place, format!("{subject:?}: `{tag}` is given twice, first in line {line}"));
+            return None;
+        }
+        let relation = Relation::ALL.into_iter().find(|relation| relation.tag() == tag).map(Role::Relation);
+        let role = relation.or_else(|| Some(Role::Component(self.registry.get(tag)?.kind, tag)));
+        if role.is_none() {
+            let known = || self.registry.tags().chain(Relation::ALL.map(Relation::tag));
+            let near = did_you_mean(tag, known());
+            let near = if near.is_empty() { format!("; known are {}", listed(known(), "and")) } else { near };
+            self.report.add(place, format!("{subject:?}: unknown component {}{near}", excerpt(tag)));
+        } else {
+            tags.push((tag, place));
+        }
+        Some((tag, role?))
+    }
+
+    /// Reads one component.
     fn component(
         &mut self,
         stated: &mut Stated<'s>,
         entity: &Named<'s>,
-        tag: &'s str,
-        node: &'s Node,
-        subject: &str,
-    ) -> bool {
-        let Some(source) = self.sources.get(entity.place.file) else { return false };
-        let place = Place { offset: node.span.start, ..entity.place };
-        let written = Written { source, place, given: Given::of(node) };
-        let role = if let Some(relation) = Relation::ALL.into_iter().find(|relation| relation.tag() == tag) {
-            Role::Relation(relation)
-        } else if let Some(entry) = self.registry.get(tag) {
-            Role::Component(entry.kind, tag)
-        } else {
-            let known = || self.registry.tags().chain(Relation::ALL.map(Relation::tag));
-            let near = did_you_mean(tag, known());
-            let near = if near.is_empty() { format!("; known are {}", listed(known(), "and")) } else { near };
-            self.report.add(place, format!("{subject}: unknown component {}{near}", excerpt(tag)));
-            return false;
-        };
+        (tag, role): (&'s str, Role<'_>),
+        written: Written<'s>,
+    ) {
+        let subject = format!("{:?}", entity.written);
         let conflict = stated.roles().find_map(|before| Some((before.tag().to_owned(), role.conflict(before)?)));
         if let Some((before, why)) = conflict {
-            self.report.add(place, format!("{subject}: `{tag}` beside `{before}`: {why}"));
+            self.report.add(written.place, format!("{subject}: `{tag}` beside `{before}`: {why}"));
         }
         match role {
             Role::Component(..) => self.part(stated, tag, written, &format!("{subject}: {tag}")),
             Role::Relation(relation) => {
-                let link = self.link(entity, written, subject, relation);
+                let link = self.link(entity, written, &subject, relation);
                 stated.broken |= link.is_none();
                 stated.links[relation as usize] = link;
             }
         }
-        true
     }
 
     /// Reads a registered component.

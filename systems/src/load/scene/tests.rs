@@ -490,7 +490,8 @@ fn bad_scenes_are_told_place_and_cause_of_every_fault() {
 #[test]
 fn a_bad_include_is_told_where_it_is_bad() {
     // Files, and the faults of `main.ron` without the folder's path.
-    let cases: &[(&[(&str, &str)], &[&str])] = &[
+    type Files = &'static [(&'static str, &'static str)];
+    let cases: &[(Files, &[&str])] = &[
         (
             &[
                 (
