@@ -4,7 +4,7 @@
 use glam::DVec2;
 use serde_json::Value;
 use snell_components::color;
-use snell_systems::load::fault::{Fault, Faults, Notice};
+use snell_systems::load::{Fault, Faults, Notice};
 use snell_systems::load::image;
 use snell_systems::load::obj::{self, Model};
 use std::collections::BTreeMap;
