@@ -235,6 +235,37 @@ fn things_beyond_the_lamp_or_behind_the_surface_cast_no_shadow() {
 }
 
 #[test]
+fn a_lamp_that_stands_on_a_surface_is_not_hidden_by_it() {
+    // Slanted, so that the lamp is on the surface up to rounding only; opaque, or clear and then met over and over.
+    let slant = Transform::new([Step::RotateX(197.0), Step::Translate(DVec3::new(0.3, 4.7, 0.1))]);
+    let on_the_plane = slant.matrix().transform_point3(DVec3::new(0.37, 0.0, 0.11));
+    let center = DVec3::new(0.1, 5.0, 0.2);
+    for clear in [false, true] {
+        for i in 0..200 {
+            let aside = f64::from(i) / 100.0 - 1.0;
+            let outward = DVec3::new(0.3 * aside, -1.0, 0.2 * aside * aside).normalize();
+            for (sphere, position) in [(false, on_the_plane), (true, center + outward)] {
+                let snapshot = scene(|world| {
+                    world.spawn((Plane {}, Diffuse(Rgb::ONE)));
+                    world.spawn(lamp(position, 1.0));
+                    let mut holder = match sphere {
+                        true => world.spawn((Sphere { radius: 1.0 }, Transform::at(center))),
+                        false => world.spawn((Plane {}, slant.clone())),
+                    };
+                    if clear {
+                        holder.insert(Transmission(Rgb::ONE));
+                    }
+                });
+                let point = DVec3::new(aside, 0.0, 0.3);
+                let to_light = position - point;
+                let found = seen(&snapshot, point + DVec3::new(0.1, 0.5, 0.0), DVec3::new(-0.1, -0.5, 0.0));
+                assert_near(found, Rgb::splat(to_light.y / to_light.length()));
+            }
+        }
+    }
+}
+
+#[test]
 fn shadows_can_be_switched_off() {
     let snapshot = ground_and(|world| drop(world.spawn((Sphere { radius: 1.0 }, Transform::at(DVec3::Y * 5.0)))));
     assert_eq!(beneath_the_lamp(&snapshot), Rgb::ZERO);
