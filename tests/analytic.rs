@@ -30,6 +30,13 @@ fn scene(build: impl FnOnce(&mut World)) -> Snapshot {
     scene_with(settings(), build)
 }
 
+/// Puts one thing into a world.
+fn put(bundle: impl Bundle) -> impl FnOnce(&mut World) {
+    move |world| {
+        world.spawn(bundle);
+    }
+}
+
 /// The light that comes to a point from a direction.
 fn seen(snapshot: &Snapshot, eye: DVec3, toward: DVec3) -> Rgb {
     let view = View { eye, right: DVec3::ZERO, up: DVec3::ZERO, forward: toward };
@@ -220,7 +227,7 @@ fn beneath_the_lamp(snapshot: &Snapshot) -> Rgb {
 fn things_beyond_the_lamp_or_behind_the_surface_cast_no_shadow() {
     let ball = |height: f64| (Sphere { radius: 1.0 }, Transform::at(DVec3::Y * height));
     for (height, light) in [(5.0, 0.0), (8.9, 0.0), (11.1, 0.8), (1000.0, 0.8), (-1.5, 0.8)] {
-        let snapshot = ground_and(|world| drop(world.spawn(ball(height))));
+        let snapshot = ground_and(put(ball(height)));
         assert_near(beneath_the_lamp(&snapshot), Rgb::splat(light));
     }
     // A light without a place has nothing beyond it.
@@ -267,7 +274,7 @@ fn a_lamp_that_stands_on_a_surface_is_not_hidden_by_it() {
 
 #[test]
 fn shadows_can_be_switched_off() {
-    let snapshot = ground_and(|world| drop(world.spawn((Sphere { radius: 1.0 }, Transform::at(DVec3::Y * 5.0)))));
+    let snapshot = ground_and(put((Sphere { radius: 1.0 }, Transform::at(DVec3::Y * 5.0))));
     assert_eq!(beneath_the_lamp(&snapshot), Rgb::ZERO);
     let settings = Settings { shadows: false, ..settings() };
     assert_near(beneath_the_lamp(&Snapshot { settings, ..snapshot }), Rgb::splat(0.8));
@@ -286,7 +293,7 @@ fn the_shadow_of_a_box_ends_where_the_line_past_its_edge_meets_the_ground() {
 #[test]
 fn the_shadow_of_a_sphere_ends_where_the_tangent_meets_the_ground() {
     // The tangent from 10 above the ground to a sphere of radius 1 at height 3: sin α = 1/7, and 10·tan α is the reach.
-    let snapshot = ground_and(|world| drop(world.spawn((Sphere { radius: 1.0 }, Transform::at(DVec3::Y * 3.0)))));
+    let snapshot = ground_and(put((Sphere { radius: 1.0 }, Transform::at(DVec3::Y * 3.0))));
     let dark = |x: f64| seen(&snapshot, DVec3::new(x, 0.5, 0.0), DVec3::NEG_Y) == Rgb::ZERO;
     assert!((edge(0.0, 3.0, dark) - 10.0 / 48.0f64.sqrt()).abs() < 1e-12);
 }
@@ -315,7 +322,7 @@ fn transparent_things_weaken_the_light_by_the_product_of_their_transmissions() {
     });
     assert_near(beneath_the_lamp(&both), red * dim * 0.8);
     // α lets 1 − α through, glass 1 − F at each of its two faces: upright, ((n − 1)/(n + 1))² = 0.04.
-    let veil = ground_and(|world| drop(world.spawn((sheet(3.0), Opacity { alpha: 0.3 }, Diffuse(Rgb::ONE)))));
+    let veil = ground_and(put((sheet(3.0), Opacity { alpha: 0.3 }, Diffuse(Rgb::ONE))));
     assert_near(beneath_the_lamp(&veil), Rgb::splat(0.8 * 0.7));
     let pane = ground_and(|world| {
         world.spawn((Cuboid { size: DVec3::splat(2.0) }, Transform::at(DVec3::Y * 4.0), Dielectric { index: 1.5 }));
@@ -426,7 +433,7 @@ fn beyond_the_critical_angle_nothing_passes() {
     for (sin, passes) in [(1.0 / index - 1e-9, true), (1.0 / index + 1e-9, false), (0.1, true), (0.999, false)] {
         let toward = DVec3::new(sin, (1.0f64 - sin * sin).sqrt(), 0.0);
         let (eye, kt) = (DVec3::Y * -1.0, Rgb::splat(0.5));
-        let bent = scene(|world| drop(world.spawn((Plane {}, Transmission(kt), Refraction { index }))));
+        let bent = scene(put((Plane {}, Transmission(kt), Refraction { index })));
         assert_near(seen(&bent, eye, toward), if passes { kt * SKY } else { Rgb::ZERO });
         // With Fresnel's split all of it is mirrored, down to the glow below.
         let split = scene(|world| {
@@ -879,23 +886,17 @@ fn placements_of_parents_come_after_those_of_their_children() {
 
 #[test]
 fn lights_are_placed_like_anything_else() {
-    let lit = |light: &dyn Fn(&mut World)| {
+    fn lit(light: impl Bundle) -> String {
         picture_of(|world| {
             world.spawn(triangle(CORNERS));
-            light(world);
+            world.spawn(light);
         })
-    };
+    }
     let quarter = || Transform::new([Step::RotateY(90.0), Step::Translate(DVec3::Z * 2.0)]);
     // Turned a quarter left, (x, y, z) becomes (z, y, −x).
-    assert_eq!(
-        lit(&|world| drop(world.spawn((lamp(DVec3::new(-6.0, 5.0, 4.0), 0.9), quarter())))),
-        lit(&|world| drop(world.spawn(lamp(DVec3::new(4.0, 5.0, 8.0), 0.9)))),
-    );
+    assert_eq!(lit((lamp(DVec3::new(-6.0, 5.0, 4.0), 0.9), quarter())), lit(lamp(DVec3::new(4.0, 5.0, 8.0), 0.9)),);
     let beam = |direction| DirectionalLight { direction, ..DirectionalLight::default() };
-    assert_eq!(
-        lit(&|world| drop(world.spawn((beam(DVec3::new(6.0, -5.0, -4.0)), quarter())))),
-        lit(&|world| drop(world.spawn(beam(DVec3::new(-4.0, -5.0, -6.0))))),
-    );
+    assert_eq!(lit((beam(DVec3::new(6.0, -5.0, -4.0)), quarter())), lit(beam(DVec3::new(-4.0, -5.0, -6.0))),);
 }
 
 #[test]

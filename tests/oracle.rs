@@ -369,7 +369,6 @@ fn whatever_the_direction_only_an_exact_zero_may_be_decided_either_way() {
 }
 
 /// A binary fraction: every finite `f64` is one, and so are sums and products of them.
-#[derive(Clone)]
 struct Binary {
     digits: BigInt,
     exponent: i64,
@@ -386,29 +385,19 @@ impl From<f64> for Binary {
     }
 }
 
-impl std::ops::Mul for &Binary {
-    type Output = Binary;
-
-    fn mul(self, other: Self) -> Binary {
-        Binary { digits: &self.digits * &other.digits, exponent: self.exponent + other.exponent }
+impl Binary {
+    fn times(&self, other: &Self) -> Self {
+        Self { digits: &self.digits * &other.digits, exponent: self.exponent + other.exponent }
     }
-}
 
-impl std::ops::Add for &Binary {
-    type Output = Binary;
-
-    fn add(self, other: Self) -> Binary {
+    fn plus(&self, other: &Self) -> Self {
         let exponent = self.exponent.min(other.exponent);
-        let at = |x: &Binary| &x.digits << (x.exponent - exponent);
-        Binary { digits: at(self) + at(other), exponent }
+        let at = |x: &Self| &x.digits << (x.exponent - exponent);
+        Self { digits: at(self) + at(other), exponent }
     }
-}
 
-impl std::ops::Sub for &Binary {
-    type Output = Binary;
-
-    fn sub(self, other: Self) -> Binary {
-        self + &(&Binary::from(-1.0) * other)
+    fn minus(&self, other: &Self) -> Self {
+        self.plus(&Self { digits: -&other.digits, exponent: other.exponent })
     }
 }
 
@@ -418,10 +407,10 @@ fn outside(ray: &Ray, center: DVec3, radius: f64, t: f64) -> Sign {
     let mut sum = Binary::from(0.0);
     for axis in 0..3 {
         let [o, d, c, t] = [ray.origin[axis], ray.direction[axis], center[axis], t].map(Binary::from);
-        let x = &(&o + &(&d * &t)) - &c;
-        sum = &sum + &(&x * &x);
+        let x = o.plus(&d.times(&t)).minus(&c);
+        sum = sum.plus(&x.times(&x));
     }
-    (&sum - &(&radius * &radius)).digits.sign()
+    sum.minus(&radius.times(&radius)).digits.sign()
 }
 
 /// A geometry of one thing.
@@ -468,9 +457,10 @@ fn the_distance_of_a_plane_is_true_to_a_few_roundings_even_at_grazing_angles() {
         let met = geometry.closest(&ray, f64::INFINITY, Accelerator::Tree, &mut Cost::default());
         let t = met.unwrap_or_else(|| panic!("missed: {ray:?}")).t;
         let [t_, d, o, p, bar] = [t, direction.y, origin.y, height, 4.0 * U].map(Binary::from);
-        let rise = &p - &o;
-        let error = &(&t_ * &d) - &rise;
-        let within = &(&(&bar * &bar) * &(&rise * &rise)) - &(&error * &error);
+        let rise = p.minus(&o);
+        let error = t_.times(&d).minus(&rise);
+        let allowed = bar.times(&rise);
+        let within = allowed.times(&allowed).minus(&error.times(&error));
         assert_ne!(within.digits.sign(), Sign::Minus, "{t} for {ray:?} and {height}");
     }
 }

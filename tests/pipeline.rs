@@ -355,9 +355,18 @@ fn placements_pass_down_from_parents_that_come_move_and_go() {
                 "move parent" => {
                     *renderer.world.get_mut::<Transform>(crate_).expect("placed") = Transform::at(DVec3::Y)
                 }
-                "release" => drop(renderer.world.entity_mut(ball).remove::<ChildOf>().id()),
-                "reset child" => drop(renderer.world.entity_mut(ball).remove::<Transform>().id()),
-                "reset parent" => drop(renderer.world.entity_mut(crate_).remove::<Transform>().id()),
+                "release" => {
+                    renderer.world.entity_mut(ball).remove::<ChildOf>();
+                }
+
+                "reset child" => {
+                    renderer.world.entity_mut(ball).remove::<Transform>();
+                }
+
+                "reset parent" => {
+                    renderer.world.entity_mut(crate_).remove::<Transform>();
+                }
+
                 step => unreachable!("{step}"),
             }
             seen.push(hash(&mut renderer));
@@ -621,9 +630,17 @@ fn a_name_given_twice_is_an_error_until_it_is_not() {
         let twin = renderer.world.spawn(Name::new("ball")).id();
         assert!(renderer.snapshot().is_err());
         match repair {
-            "rename" => drop(renderer.world.entity_mut(twin).insert(Name::new("twin")).id()),
-            "remove" => drop(renderer.world.entity_mut(twin).remove::<Name>().id()),
-            _ => drop(renderer.world.despawn(twin)),
+            "rename" => {
+                renderer.world.entity_mut(twin).insert(Name::new("twin"));
+            }
+
+            "remove" => {
+                renderer.world.entity_mut(twin).remove::<Name>();
+            }
+
+            _ => {
+                renderer.world.despawn(twin);
+            }
         }
         assert!(renderer.snapshot().is_ok(), "{repair}");
     }
