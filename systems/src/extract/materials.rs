@@ -24,16 +24,19 @@ use std::{
 #[derive(Component, Clone)]
 pub struct PackedTexture(Option<Arc<dyn Pattern>>);
 
-/// Packs the textures of one type that were changed.
-pub fn pack_textures<T: Texture>(
-    changed: Query<(Entity, &T), Changed<T>>,
+/// Takes away the packed form where a texture of one type is gone.
+pub fn unpack_textures<T: Texture>(
     mut removed: RemovedComponents<T>,
-    packed: Query<(), With<PackedTexture>>,
+    gone: Query<(), (With<PackedTexture>, Without<T>)>,
     mut commands: Commands,
 ) {
-    for entity in removed.read().filter(|entity| packed.contains(*entity)) {
+    for entity in removed.read().filter(|entity| gone.contains(*entity)) {
         commands.entity(entity).remove::<PackedTexture>();
     }
+}
+
+/// Packs the textures of one type that were changed.
+pub fn pack_textures<T: Texture>(changed: Query<(Entity, &T), Changed<T>>, mut commands: Commands) {
     for (entity, texture) in &changed {
         commands.entity(entity).insert(PackedTexture(texture.pack()));
     }
@@ -127,13 +130,15 @@ pub fn gather_materials(
     changed: Query<(), Or<(ChangedEffect, Changed<MadeOf>, Changed<MaterialSlots>)>>,
     renamed: Query<(), (AnyEffect, Changed<Name>)>,
     mut removed: RemovedEffects,
+    mut unnamed: RemovedComponents<Name>,
     scenery: Res<Scenery>,
     with_effects: Query<Effects, AnyEffect>,
     made_of: Query<&MadeOf>,
     slots: Query<&MaterialSlots>,
     mut parts: ResMut<Parts>,
 ) {
-    let removed = removed.any();
+    let unnamed = unnamed.read().filter(|entity| with_effects.contains(*entity)).count();
+    let removed = removed.any() || unnamed > 0;
     if changed.is_empty() && renamed.is_empty() && !removed && !scenery.is_changed() {
         return;
     }

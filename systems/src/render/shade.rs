@@ -9,7 +9,7 @@ use glam::DVec3;
 use snell_components::{
     color::Rgb,
     math,
-    primitive::{Cost, Surface},
+    primitive::{Cost, OFFSET_ULPS, Surface},
     space::Ray,
     texture::TexturePoint,
 };
@@ -99,7 +99,7 @@ impl<'a> Point<'a> {
         let Snapshot { geometry, materials, .. } = self.snapshot;
         let mut cost = Cost::default();
         let mut visible = Rgb::ONE;
-        let mut rest = distance;
+        let mut rest = short_of_the_light(&ray, distance);
         if !materials.any_transparent {
             counts.shadow += 1;
             if geometry.blocked(&ray, rest, self.accelerator, &mut cost) {
@@ -107,7 +107,8 @@ impl<'a> Point<'a> {
             }
         } else {
             let end = ray.at(distance);
-            let length = ray.direction.length();
+            let toward = ray.direction;
+            let length = toward.length();
             while visible != Rgb::ZERO {
                 counts.shadow += 1;
                 let met = geometry.closest(&ray, rest, self.accelerator, &mut cost);
@@ -117,7 +118,11 @@ impl<'a> Point<'a> {
                 if rest.is_finite() {
                     // Toward the same end from the new start.
                     ray.direction = end - ray.origin;
-                    rest = 1.0;
+                    rest = short_of_the_light(&ray, 1.0);
+                    // The step away from the surface may pass the light: turning back would go on for ever.
+                    if ray.direction.dot(toward) <= 0.0 {
+                        break;
+                    }
                 }
             }
         }
@@ -134,6 +139,17 @@ struct Arriving {
     cosine: f64,
     /// What arrives after shadows, linear RGB.
     intensity: Rgb,
+}
+
+/// Where the way to a light at `distance` ends: before the rounding error of a surface that the light stands on, which
+/// must not hide it.
+fn short_of_the_light(ray: &Ray, distance: f64) -> f64 {
+    if distance.is_infinite() {
+        return distance;
+    }
+    let length = ray.direction.length();
+    let reach = ray.origin.abs().max_element() + length * distance;
+    distance - OFFSET_ULPS * f64::EPSILON * reach / length
 }
 
 /// Share of the light that a surface lets through on a straight way.
