@@ -15,8 +15,7 @@ pub fn linear_from_srgb(encoded: f64) -> f64 {
 /// sRGB encoding in 0..=1 of linear light (IEC 61966-2-1); values outside 0..=1 are clamped, NaN gives 0.
 #[must_use]
 pub fn srgb_from_linear(linear: f64) -> f64 {
-    // Written so that NaN, too, takes the first branch.
-    if !(linear > 0.0) {
+    if linear <= 0.0 || linear.is_nan() {
         0.0
     } else if linear <= 0.003_130_8 {
         linear * 12.92

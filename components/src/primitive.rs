@@ -80,8 +80,9 @@ pub struct Surface {
     pub uv: DVec2,
     /// Which of the object's materials, for shapes that have several.
     pub slot: u32,
-    /// Largest coordinate that entered the computation, world units: the scale of the point's rounding error.
-    pub magnitude: f64,
+    /// How far `point` may be from the true surface, world units, beyond the rounding of its own coordinates;
+    /// [`Surface::rounding`] of the largest number that entered the computation, for most shapes.
+    pub error: f64,
 }
 
 /// What tracing cost, in counts that do not depend on the machine.
@@ -101,13 +102,19 @@ impl core::ops::AddAssign for Cost {
 }
 
 impl Surface {
-    /// Where a ray that leaves the surface toward `direction` starts: beyond the rounding error of the point, on that
-    /// side. There is no absolute epsilon: the step is [`OFFSET_ULPS`] of the largest coordinate involved plus the
-    /// distance `travelled` to get here, both in world units.
+    /// The rounding error that a computation with numbers up to `magnitude` is taken to have.
+    #[must_use]
+    pub fn rounding(magnitude: f64) -> f64 {
+        OFFSET_ULPS * f64::EPSILON * magnitude
+    }
+
+    /// Where a ray that leaves the surface toward `direction` starts: beyond the error of the point, on that side.
+    ///
+    /// There is no absolute epsilon: the step is the shape's own error and [`OFFSET_ULPS`] of the point's largest
+    /// coordinate and of the distance `travelled` to get here, in world units.
     #[must_use]
     pub fn departure(&self, direction: DVec3, travelled: f64) -> DVec3 {
-        let reach = self.magnitude.max(self.point.abs().max_element()) + travelled;
-        let step = OFFSET_ULPS * f64::EPSILON * reach;
+        let step = self.error + Self::rounding(self.point.abs().max_element() + travelled);
         self.point + self.normal * if self.normal.dot(direction) < 0.0 { -step } else { step }
     }
 }

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use snell_components::transform::{GlobalTransform, Transform};
 
 /// What changes placements in the world.
-type Moved = Or<(Changed<Transform>, Changed<ChildOf>, Changed<Children>, Added<GlobalTransform>)>;
+type Moved = Or<(Changed<Transform>, Changed<ChildOf>, Changed<Children>)>;
 
 /// Multiplies placements down from the roots; an entity without [`Transform`] passes its parent's placement on.
 pub fn propagate(

@@ -206,7 +206,7 @@ mod tests {
     fn a_ray_aimed_at_a_corner_always_reaches_the_box() {
         let mut seed = 1;
         for _ in 0..200 {
-            let scale = 10f64.powf(random(&mut seed) * 12.0 - 6.0);
+            let scale = math::pow(10.0, random(&mut seed) * 12.0 - 6.0);
             let shift = DVec3::splat(1e3 * scale * random(&mut seed));
             let mut point = || DVec3::from_array([0; 3].map(|_| random(&mut seed))) * scale + shift;
             let boxes: Vec<Bounds> = (0..40).map(|_| Bounds::of_points([point(), point()])).collect();

@@ -37,7 +37,8 @@ pub struct PackedCuboid {
     half: DVec3,
     object_from_world: DAffine3,
     world_from_object: DAffine3,
-    magnitude: f64,
+    /// Of a point of the surface, world units.
+    error: f64,
 }
 
 /// Distances at which a line enters and leaves the box −half..=half, and the axes of those faces.
@@ -73,14 +74,14 @@ impl Primitive for Cuboid {
     fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedCuboid), Degenerate> {
         let half = self.size * 0.5;
         let bounds = Bounds { min: -half, max: half }.transformed(world_from_object);
-        let magnitude = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let error = Surface::rounding(bounds.min.abs().max(bounds.max.abs()).max_element());
         Ok((
             Extent::Bounded(bounds),
             PackedCuboid {
                 half,
                 object_from_world: world_from_object.inverse(),
                 world_from_object: *world_from_object,
-                magnitude,
+                error,
             },
         ))
     }
@@ -119,7 +120,7 @@ impl Primitive for Cuboid {
             shading_normal: normal,
             uv: DVec2::new(0.5 + 0.5 * u, 0.5 + 0.5 * v),
             slot: 0,
-            magnitude: packed.magnitude,
+            error: packed.error,
         }
     }
 }

@@ -283,7 +283,8 @@ struct Placed {
     object_from_world: DAffine3,
     world_from_object: DAffine3,
     cotangent: DMat3,
-    magnitude: f64,
+    /// Of a point of the surface, world units.
+    error: f64,
 }
 
 impl Primitive for Mesh {
@@ -297,13 +298,14 @@ impl Primitive for Mesh {
         let tree = mesh.tree();
         let bounds = tree.bvh.top_boxes().map(|b| b.transformed(world_from_object)).reduce(Bounds::union);
         let object_from_world = world_from_object.inverse();
+        let reach = tree.magnitude * norm(&world_from_object.matrix3);
+        let reach = reach + world_from_object.translation.abs().max_element();
         let placed = Placed {
             shading: self.shading,
             object_from_world,
             world_from_object: *world_from_object,
             cotangent: object_from_world.matrix3.transpose(),
-            magnitude: tree.magnitude * norm(&world_from_object.matrix3)
-                + world_from_object.translation.abs().max_element(),
+            error: Surface::rounding(reach),
         };
         Ok((Extent::Bounded(bounds.unwrap_or(Bounds::EMPTY)), PackedMesh { mesh, placed: Arc::new(placed) }))
     }
@@ -363,7 +365,7 @@ impl Primitive for Mesh {
             shading_normal,
             uv,
             slot: mesh.slots.get(hit.part as usize).map_or(0, |&slot| u32::from(slot)),
-            magnitude: placed.magnitude,
+            error: placed.error,
         }
     }
 

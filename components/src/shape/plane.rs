@@ -61,7 +61,7 @@ impl Primitive for Plane {
             shading_normal: packed.normal,
             uv: DVec2::new(local.x, -local.z),
             slot: 0,
-            magnitude: packed.point.abs().max_element(),
+            error: Surface::rounding(packed.point.abs().max_element()),
         }
     }
 }

@@ -141,12 +141,13 @@ impl Primitive for Sphere {
         };
         let u = 0.5 + math::atan2(-local.z, local.x) / (2.0 * PI);
         let v = 1.0 - math::acos(local.y) / PI;
-        let magnitude = packed.center.abs().max_element() + packed.radius;
-        let magnitude = packed.ellipsoid.as_ref().map_or(magnitude, |maps| {
+        let reach = packed.center.abs().max_element() + packed.radius;
+        let reach = packed.ellipsoid.as_ref().map_or(reach, |maps| {
             let m = maps.world_from_object;
             m.translation.abs().max_element() + packed.radius * largest_axis(&m.matrix3)
         });
-        Surface { point, normal, shading_normal: normal, uv: DVec2::new(u, v), slot: 0, magnitude }
+        let error = Surface::rounding(reach);
+        Surface { point, normal, shading_normal: normal, uv: DVec2::new(u, v), slot: 0, error }
     }
 
     fn bounding_sphere(packed: &PackedSphere, bounds: &Bounds) -> BoundingSphere {
@@ -188,7 +189,7 @@ mod tests {
     #[test]
     fn far_and_huge_spheres_keep_their_digits() {
         for exponent in 0..12 {
-            let distance = 10f64.powf(f64::from(exponent)) * 3.0;
+            let distance = math::pow(10.0, f64::from(exponent)) * 3.0;
             let sphere = packed(1.0, DAffine3::from_translation(DVec3::Z * distance));
             let t = trace(&sphere, DVec3::new(0.5, 0.0, 0.0), DVec3::Z).expect("a hit");
             let exact = distance - 0.75f64.sqrt();

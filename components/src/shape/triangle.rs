@@ -96,7 +96,7 @@ impl Primitive for Triangle {
             shading_normal,
             uv: ta * u + tb * v + tc * w,
             slot: 0,
-            magnitude: a.abs().max(b.abs()).max(c.abs()).max_element(),
+            error: Surface::rounding(a.abs().max(b.abs()).max(c.abs()).max_element()),
         }
     }
 

@@ -78,7 +78,7 @@ impl<'a> Point<'a> {
             let Some(light) = lamp.illuminate(start) else { continue };
             let direction = light.to_light.normalize();
             let cosine = self.surface.shading_normal.dot(direction);
-            if !(cosine > 0.0) {
+            if cosine <= 0.0 || cosine.is_nan() {
                 continue;
             }
             let visible = if self.snapshot.settings.shadows {
