@@ -121,7 +121,7 @@ impl Golden {
             return Err(Failure::Unusable(format!("{} has no `{}`", self.expected.display(), key::HASH)));
         };
         Difference::between(&expected, hash, actual)
-            .map_or(Ok(()), |difference| Err(Failure::Different(expected, difference)))
+            .map_or(Ok(()), |difference| Err(Failure::Different(expected, Box::new(difference))))
     }
 
     /// Leaves pictures to look at and tells what happened.
@@ -167,7 +167,7 @@ fn files(folder: &Path, extension: &str) -> io::Result<Vec<PathBuf>> {
 enum Failure {
     Missing,
     Unusable(String),
-    Different(Picture, Difference),
+    Different(Picture, Box<Difference>),
 }
 
 /// How a picture differs from the expected one.
