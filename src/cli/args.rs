@@ -35,12 +35,12 @@ Examples:
   snell render scene.ron --region 100,80,64,64        these pixels only
   snell render scene.ron --stats stats.json --quiet   for programs")]
 pub(super) struct RenderArguments {
-    #[command(flatten)]
-    pub(super) drawing: Drawing,
-
     /// Picture file, .png or .exr [default: the scene's name with .png, in this folder]
     #[arg(short, long, value_name = "FILE")]
     pub(super) output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(super) drawing: Drawing,
 
     /// Bits of a channel of a PNG file [default: 8]
     #[arg(long, value_name = "8|16", value_parser = bits)]

@@ -28,6 +28,8 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
     progress.begin("loading");
     let (loaded, load) = timed(|| pool.run(|| renderer.load(&how.scene)));
     let notices = loaded.map_err(|faults| Failure::Scene(faults.0.iter().map(ToString::to_string).collect()))?;
+    // Before the long wait: the user may want to stop and put things right.
+    progress.aside(|| notices.iter().for_each(|notice| console.warn(notice)));
 
     let settings = &mut *renderer.settings();
     apply(how, settings);
@@ -37,6 +39,7 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
     progress.begin("building");
     let (snapshot, build) = timed(|| pool.run(|| renderer.snapshot()));
     let snapshot = snapshot.map_err(|why| Failure::Scene(vec![of_scene(&how.scene, why)]))?;
+    progress.aside(|| warn_of_left_out(&how.scene, &snapshot, console));
 
     progress.begin_pixels("tracing", region.area() as u64);
     let on_tile = |_: &_, so_far: crate::Progress| progress.set(so_far.done);
@@ -45,8 +48,6 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
     let (frame, trace) = timed(|| pool.run(|| render(&snapshot, &options)));
     drop(progress);
 
-    notices.iter().for_each(|notice| console.warn(notice));
-    warn_of_left_out(&how.scene, &snapshot, console);
     if frame.counts.not_finite > 0 {
         let what = format!("{} pixels are not finite numbers and shown black", frame.counts.not_finite);
         console.warn(of_scene(&how.scene, what));

@@ -52,6 +52,11 @@ impl Progress {
         self.bar.set_position(done);
     }
 
+    /// Does something that writes to the terminal.
+    pub(super) fn aside<R>(&self, write: impl FnOnce() -> R) -> R {
+        self.bar.suspend(write)
+    }
+
     fn restyle(&self, stage: &'static str, template: &str) {
         self.bar.reset();
         self.bar.set_message(stage);

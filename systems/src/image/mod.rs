@@ -161,6 +161,26 @@ mod tests {
     }
 
     #[test]
+    fn no_changed_byte_panics() {
+        let mut small = Picture::black(9, 7);
+        small.pixels[20] = [0.25, 0.5, 8.0];
+        let exr = exr::encode(&small, &metadata()).expect("encoded");
+        let png = png::encode(&small, png::Depth::Eight, &metadata()).expect("encoded");
+        let decoders: [(_, fn(&[u8]) -> Result<(Picture, Metadata), String>); 2] =
+            [(exr, exr::decode), (png, png::decode)];
+        for (bytes, decode) in decoders {
+            for at in 0..bytes.len() {
+                for value in [0, 1, 0x7f, 0x80, 0xff, bytes[at] ^ 1] {
+                    let mut changed = bytes.clone();
+                    changed[at] = value;
+                    // A picture or an error: either will do.
+                    let _ = decode(&changed);
+                }
+            }
+        }
+    }
+
+    #[test]
     fn formats_go_by_extension() {
         assert_eq!(Format::of(Path::new("a/b.Png")), Ok(Format::Png8));
         assert_eq!(Format::of(Path::new("b.exr")), Ok(Format::Exr));
