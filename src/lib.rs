@@ -22,6 +22,8 @@
 //! # Ok::<(), snell::SceneError>(())
 //! ```
 
+pub mod cli;
+
 pub use snell_components as components;
 pub use snell_systems as systems;
 
