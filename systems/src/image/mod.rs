@@ -144,24 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn damaged_files_are_errors() {
-        let folder = tempfile::tempdir().expect("a folder");
-        for (format, name) in [(Format::Png8, "a.png"), (Format::Exr, "a.exr")] {
-            let path = folder.path().join(name);
-            write(&path, format, &picture(), &metadata()).expect("written");
-            let bytes = fs::read(&path).expect("read");
-            for end in 0..bytes.len() - 1 {
-                fs::write(&path, &bytes[..end]).expect("cut");
-                // What counts is that nothing panics; a PNG without its last, empty chunk is still whole.
-                if read(&path).is_ok() {
-                    assert!(end + 12 >= bytes.len(), "{name} cut to {end} bytes");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn no_changed_byte_panics() {
+    fn damaged_files_are_errors_and_never_panic() {
         let mut small = Picture::black(9, 7);
         small.pixels[20] = [0.25, 0.5, 8.0];
         let exr = exr::encode(&small, &metadata()).expect("encoded");
@@ -169,6 +152,10 @@ mod tests {
         let decoders: [(_, fn(&[u8]) -> Result<(Picture, Metadata), String>); 2] =
             [(exr, exr::decode), (png, png::decode)];
         for (bytes, decode) in decoders {
+            // The last chunk of a PNG is 12 bytes that say nothing.
+            for end in 0..bytes.len() - 12 {
+                assert!(decode(&bytes[..end]).is_err(), "cut to {end} bytes");
+            }
             for at in 0..bytes.len() {
                 for value in [0, 1, 0x7f, 0x80, 0xff, bytes[at] ^ 1] {
                     let mut changed = bytes.clone();
