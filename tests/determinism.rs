@@ -10,6 +10,7 @@ mod support {
 }
 
 use snell::prelude::*;
+use snell::systems::render::pixel;
 use std::fmt::Write;
 use support::{gallery::gallery, random::Random, scene::Scene};
 
@@ -49,6 +50,33 @@ fn neither_threads_nor_tiles_nor_the_order_of_making_matter() {
             }
         }
     }
+}
+
+#[test]
+fn sums_over_lights_follow_their_names_to_the_last_bit() {
+    let brightness = |renamed: bool, order: u64| {
+        let mut scene = Scene::new("lights", Settings { width: 1, height: 1, ..Settings::default() });
+        scene.put(
+            "camera",
+            Camera { position: DVec3::new(0.1, 1.0, 0.2), target: Some(DVec3::ZERO), ..Camera::default() },
+        );
+        scene.put("ground", (Plane {}, Diffuse(Rgb::ONE), Ambient(Rgb::ONE)));
+        for i in 0..9 {
+            let name = if renamed { 4 * i % 9 } else { i };
+            let intensity = Rgb::splat(1.0 / f64::from(3 + i * i % 11));
+            scene.put(format!("lamp {name}"), PointLight { position: DVec3::new(f64::from(i), 3.0, 1.0), intensity });
+            scene.put(format!("sky {name}"), AmbientLight { intensity });
+        }
+        let snapshot = snapshot(&scene, order);
+        let light = pixel(&snapshot, 0, 0, Accelerator::Tree, &mut snell::Counts::default());
+        (light, snapshot.lights.ambient)
+    };
+    for order in 1..20 {
+        assert_eq!(brightness(false, order), brightness(false, 0), "order {order}");
+    }
+    // Shown to matter: in another order of names the sums differ.
+    let (named, renamed) = (brightness(false, 0), brightness(true, 0));
+    assert!(named.0 != renamed.0 && named.1 != renamed.1);
 }
 
 #[test]
