@@ -59,3 +59,8 @@ pub mod prelude {
         transform::{Step, Transform},
     };
 }
+
+/// The README's Rust code, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

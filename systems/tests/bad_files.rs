@@ -4,9 +4,9 @@
 use glam::DVec2;
 use serde_json::Value;
 use snell_components::color;
-use snell_systems::load::{Fault, Faults, Notice};
 use snell_systems::load::image;
 use snell_systems::load::obj::{self, Model};
+use snell_systems::load::{Fault, Faults, Notice};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};

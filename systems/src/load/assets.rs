@@ -7,7 +7,7 @@ use super::{
 };
 use snell_components::texture::Image;
 use std::{
-    collections::HashMap,
+    collections::BTreeMap,
     fs, io,
     path::{Path, PathBuf},
     sync::Arc,
@@ -20,8 +20,8 @@ const NEIGHBOURS: usize = 1000;
 #[derive(Default)]
 pub(super) struct Assets {
     models: Vec<(String, Model)>,
-    model_by_file: HashMap<PathBuf, Option<usize>>,
-    image_by_file: HashMap<PathBuf, Option<Arc<Image>>>,
+    model_by_file: BTreeMap<PathBuf, Option<usize>>,
+    image_by_file: BTreeMap<PathBuf, Option<Arc<Image>>>,
     /// All that is wrong with the files, in the order of reading.
     pub(super) faults: Vec<Fault>,
     /// What was repaired or passed over.

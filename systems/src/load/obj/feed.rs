@@ -19,7 +19,7 @@ pub(super) trait Check {
     fn finish(&mut self);
 
     /// Where findings go.
-    fn log(&mut self) -> &mut Log;
+    fn report(&mut self) -> &mut Log;
 }
 
 /// A reader of checked statements.
@@ -49,7 +49,7 @@ impl<'a, R: BufRead, C: Check> Feed<'a, R, C> {
             return Err(format!("cannot be read: {error}"));
         }
         feed.check.finish();
-        if feed.check.log().has_faults() {
+        if feed.check.report().has_faults() {
             return Ok(None);
         }
         match parsed {
@@ -73,7 +73,7 @@ impl<'a, R: BufRead, C: Check> Feed<'a, R, C> {
                 }
             }
             // A faulty file is checked to its end; parsing it on would only cost time.
-            if self.check.log().has_faults() {
+            if self.check.report().has_faults() {
                 self.ready.clear();
             }
             if self.ready.len() >= BLOCK {

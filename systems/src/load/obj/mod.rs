@@ -50,7 +50,7 @@ use mtl::Library;
 use scan::Scan;
 use snell_components::shape::TriangleMesh;
 use snell_components::texture::Image;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use word::quoted;
@@ -122,15 +122,15 @@ struct Materials {
     libraries: Vec<Library>,
     /// Library and entry of each name.
     by_name: BTreeMap<String, (usize, usize)>,
-    textures: HashMap<PathBuf, Option<Arc<Image>>>,
+    textures: BTreeMap<PathBuf, Option<Arc<Image>>>,
 }
 
 impl Materials {
     /// Reads the libraries that a model names, each once. Those that cannot be read are noticed.
     fn read(model: &Path, scan: &mut Scan) -> Self {
-        let mut this = Self { libraries: vec![], by_name: BTreeMap::new(), textures: HashMap::new() };
+        let mut this = Self { libraries: vec![], by_name: BTreeMap::new(), textures: BTreeMap::new() };
         let folder = model.parent().unwrap_or(Path::new(""));
-        let mut seen = HashSet::new();
+        let mut seen = BTreeSet::new();
         for (names, at) in std::mem::take(&mut scan.libraries) {
             for path in library_paths(folder, &names) {
                 if seen.contains(&path) {

@@ -92,7 +92,7 @@ impl Check for Scan {
 
     fn finish(&mut self) {}
 
-    fn log(&mut self) -> &mut Log {
+    fn report(&mut self) -> &mut Log {
         &mut self.log
     }
 }

@@ -104,6 +104,14 @@ mod tests {
     use super::*;
     use glam::{DMat3, DQuat};
 
+    fn sin(radians: f64) -> f64 {
+        snell_components::math::sin_cos_degrees(radians.to_degrees()).0
+    }
+
+    fn cos(radians: f64) -> f64 {
+        snell_components::math::sin_cos_degrees(radians.to_degrees()).1
+    }
+
     fn in_plane(points: &[[f64; 2]]) -> Vec<DVec3> {
         points.iter().map(|&[x, y]| DVec3::new(x, y, 0.0)).collect()
     }
@@ -163,7 +171,7 @@ mod tests {
         let star: Vec<_> = (0..10)
             .map(|i| {
                 let (angle, radius) = (f64::from(i) * std::f64::consts::PI / 5.0, if i % 2 == 0 { 3.0 } else { 1.0 });
-                [radius * angle.cos(), radius * angle.sin()]
+                [radius * cos(angle), radius * sin(angle)]
             })
             .collect();
         check_everywhere(&star);
@@ -205,7 +213,7 @@ mod tests {
                 .map(|i| {
                     let radius = 0.05 + random();
                     let angle = f64::from(i) / f64::from(count) * std::f64::consts::TAU + 6.0 * radius;
-                    DVec3::new(radius * angle.cos(), radius * angle.sin(), 0.0)
+                    DVec3::new(radius * cos(angle), radius * sin(angle), 0.0)
                 })
                 .collect();
             if is_simple(&points) {
@@ -214,7 +222,7 @@ mod tests {
             let points: Vec<_> = (0..count)
                 .map(|i| {
                     let (angle, radius) = (f64::from(i) / f64::from(count) * std::f64::consts::TAU, 0.05 + random());
-                    DVec3::new(radius * angle.cos(), 0.0, radius * angle.sin())
+                    DVec3::new(radius * cos(angle), 0.0, radius * sin(angle))
                 })
                 .collect();
             check(&points);
@@ -250,7 +258,7 @@ mod tests {
         // A double spiral: few of its corners are ears at any time.
         let arm = |i: i32, width: f64| {
             let angle = f64::from(i) * 0.05;
-            [(angle + width) * angle.cos(), (angle + width) * angle.sin()]
+            [(angle + width) * cos(angle), (angle + width) * sin(angle)]
         };
         let points: Vec<_> = (20..2000).map(|i| arm(i, 1.0)).chain((20..2000).rev().map(|i| arm(i, 0.0))).collect();
         check(&in_plane(&points));

@@ -9,7 +9,7 @@ use super::lines::Line;
 use super::log::Log;
 use super::word::{Word, integer, name, number, quoted, words};
 use crate::load::fault::Position;
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use std::path::Path;
 
 /// What the indices of a corner refer to, in the order they are written.
@@ -64,7 +64,7 @@ pub(super) struct Scan {
     pub(super) libraries: Vec<(String, Position)>,
     ahead: Vec<Ahead>,
     material: Current,
-    slots: HashMap<String, u16>,
+    slots: BTreeMap<String, u16>,
     face: Vec<[Option<usize>; 3]>,
 }
 
@@ -80,7 +80,7 @@ impl Scan {
             libraries: vec![],
             ahead: vec![],
             material: Current::None,
-            slots: HashMap::new(),
+            slots: BTreeMap::new(),
             face: vec![],
         }
     }
@@ -288,7 +288,7 @@ impl Check for Scan {
         }
     }
 
-    fn log(&mut self) -> &mut Log {
+    fn report(&mut self) -> &mut Log {
         &mut self.log
     }
 }

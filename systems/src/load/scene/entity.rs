@@ -12,7 +12,7 @@ use crate::{
 };
 use glam::DAffine3;
 use snell_components::{describe::Describe, transform::Transform};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 
 /// How entities refer to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,7 +129,7 @@ pub(super) struct Reader<'a, 's> {
     pub(super) report: &'a mut Report,
     /// Names that were looked up and not found, by scope, with what may have been meant: one misspelt material of many
     /// objects is searched for once.
-    pub(super) unknown: HashMap<(usize, String), String>,
+    pub(super) unknown: BTreeMap<(usize, String), String>,
 }
 
 impl<'s> Reader<'_, 's> {

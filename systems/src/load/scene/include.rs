@@ -11,7 +11,7 @@ use crate::load::{
     fault::{Fault, Faults},
 };
 use std::{
-    collections::HashMap,
+    collections::BTreeMap,
     fs,
     path::{Path, PathBuf},
 };
@@ -34,7 +34,7 @@ pub(super) fn read_files(path: &Path, report: &mut Report) -> Result<Vec<Source>
 /// Reads a scene from memory, and all that it includes, in the order in which they are met.
 pub(super) fn read_all(path: &Path, bytes: Vec<u8>, report: &mut Report) -> Vec<Source> {
     let base = path.parent().unwrap_or(Path::new("")).to_path_buf();
-    let mut number_by_file: HashMap<PathBuf, usize> = HashMap::new();
+    let mut number_by_file: BTreeMap<PathBuf, usize> = BTreeMap::new();
     // A scene from memory need not exist as a file.
     number_by_file.insert(path.canonicalize().unwrap_or(path.into()), 0);
     let mut sources = vec![open(path.into(), String::new(), bytes, 0, report)];
@@ -132,14 +132,14 @@ pub(super) enum Content<'s> {
 pub(super) struct Layout<'s> {
     pub(super) scopes: Vec<Scope>,
     pub(super) entities: Vec<Named<'s>>,
-    by_name: HashMap<String, usize>,
+    by_name: BTreeMap<String, usize>,
 }
 
 impl<'s> Layout<'s> {
     /// Lays out what the files say; double names and circles of files are reported.
     pub(super) fn new(sources: &'s [Source], report: &mut Report) -> Self {
         let scene = Scope { file: 0, prefix: String::new(), outer: None, placement: None };
-        let mut layout = Self { scopes: vec![scene], entities: vec![], by_name: HashMap::new() };
+        let mut layout = Self { scopes: vec![scene], entities: vec![], by_name: BTreeMap::new() };
         let mut scope = 0;
         while scope < layout.scopes.len() {
             layout.add_scope(scope, sources, report);

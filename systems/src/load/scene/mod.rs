@@ -33,7 +33,7 @@ use include::Layout;
 use node::Form;
 use snell_components::{describe::Describe, settings::Settings};
 use source::{Place, Report, Source, excerpt};
-use std::{collections::HashMap, path::Path};
+use std::{collections::BTreeMap, path::Path};
 
 /// Reads a scene file, and all files it names, into the world: its entities, and its [`Settings`].
 ///
@@ -69,7 +69,7 @@ fn read(world: &mut World, sources: &[Source], mut report: Report) -> Result<Vec
         sources,
         assets: &mut assets,
         report: &mut report,
-        unknown: HashMap::new(),
+        unknown: BTreeMap::new(),
     };
     let stated: Vec<_> = layout.entities.iter().map(|entity| reader.entity(entity)).collect();
     let wholes = links::complete(&layout, &stated, &mut report);

@@ -19,7 +19,7 @@ use snell_components::{
     name::Name,
     texture::ImageTexture,
 };
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet};
 
 /// An entity that only needs to be made.
 pub(super) struct Ready {
@@ -68,7 +68,7 @@ pub(super) fn prepare(
 /// Spawns all entities.
 pub(super) fn spawn(world: &mut World, ready: Vec<Ready>, assets: &Assets) {
     let entities: Vec<Entity> = ready.iter().map(|ready| world.spawn(Name::new(ready.name.as_str())).id()).collect();
-    let mut materials: HashMap<usize, Vec<Entity>> = HashMap::new();
+    let mut materials: BTreeMap<usize, Vec<Entity>> = BTreeMap::new();
     for (ready, id) in ready.into_iter().zip(&entities) {
         let slots = ready
             .model
@@ -92,7 +92,7 @@ pub(super) fn spawn(world: &mut World, ready: Vec<Ready>, assets: &Assets) {
 /// Spawns the materials of a model, by slot.
 fn spawn_materials(world: &mut World, model: usize, assets: &Assets) -> Vec<Entity> {
     let Some((path, model)) = assets.model_at(model) else { return vec![] };
-    let mut names = HashSet::new();
+    let mut names = BTreeSet::new();
     let mut unique = |material: &ModelMaterial| {
         let mut name = format!("{path}#{}", material.name);
         while !names.insert(name.clone()) {
