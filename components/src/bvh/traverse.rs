@@ -25,6 +25,11 @@ struct Axis {
 /// Relative slack on distances: four roundings of `f32` on either side.
 const SLACK: f64 = 4.0 / (1u64 << 24) as f64;
 
+/// How far a ray is widened, in ulps of its origin's largest coordinate: an exact test takes the ray to its own space
+/// first, and may find a hit that much beside the ray, and so outside the bounds. Matters for rays along an axis alone;
+/// on all others the slack on distances is far larger.
+const ORIGIN_ULPS: f64 = 64.0;
+
 impl BoxRay {
     fn new(ray: &Ray) -> Self {
         let mut this = Self {
@@ -32,9 +37,10 @@ impl BoxRay {
             far: [Axis { origin: 0.0, inverse: 0.0 }; 3],
             negative: [false; 3],
         };
+        let margin = ORIGIN_ULPS * f64::EPSILON * ray.origin.abs().max_element();
         for axis in 0..3 {
             let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
-            let (low, high) = (math::f32_below(origin), math::f32_above(origin));
+            let (low, high) = (math::f32_below(origin - margin), math::f32_above(origin + margin));
             // The sign bit, so that −0 and +0 lead to the same planes as the inverse they make.
             let negative = direction.is_sign_negative();
             let inverse = 1.0 / direction;
@@ -245,6 +251,16 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn a_ray_from_afar_along_an_axis_reaches_what_its_rounding_may_hit() {
+        // One ulp of the origin beside a box far smaller than that distance.
+        let origin = DVec3::new(-1e9, 1.0, 0.5);
+        let beside = 1.0 - f64::EPSILON * 1e9;
+        let b = Bounds { min: DVec3::ZERO, max: DVec3::new(1.0, beside, 1.0) };
+        let tree = Bvh::build([Box32::around(&b)].into_iter(), 1);
+        assert_eq!(visited(&tree, &Ray { origin, direction: DVec3::X }), [0]);
     }
 
     #[test]
