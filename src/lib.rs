@@ -43,6 +43,7 @@ pub mod prelude {
     pub use glam::{DAffine3, DVec2, DVec3};
     pub use snell_components::{
         camera::Camera,
+        choice,
         color::Rgb,
         describe::{Describe, Fault, FieldVisitor, Spec, Value},
         light::{AmbientLight, DirectionalLight, Light, PointLight},
@@ -52,8 +53,8 @@ pub mod prelude {
         },
         name::Name,
         primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
-        settings::Settings,
-        shape::{Cuboid, Mesh, Plane, Sphere, Triangle, TriangleMesh},
+        settings::{Antialias, Settings},
+        shape::{Cuboid, Mesh, Plane, Shading, Sphere, Triangle, TriangleMesh},
         space::{Bounds, Ray},
         texture::{Checker, Image, ImageTexture, Texture},
         transform::{Step, Transform},

@@ -674,7 +674,7 @@ fn four_rays_a_pixel_are_the_mean_of_a_picture_of_twice_the_size() {
             settings: Settings { antialias, width: width * times, height: height * times, ..snapshot.settings.clone() },
             ..(*snapshot).clone()
         };
-        let (four, fine) = (shot(1, 1), shot(0, 2));
+        let (four, fine) = (shot(Antialias::Four, 1), shot(Antialias::Off, 2));
         for (x, y) in (0..height).step_by(3).flat_map(|y| (0..width).step_by(3).map(move |x| (x, y))) {
             let one = |snapshot, x, y| pixel(snapshot, x, y, Accelerator::Tree, &mut snell::Counts::default());
             let quarter = |dx, dy| one(&fine, 2 * x + dx, 2 * y + dy);

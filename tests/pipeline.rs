@@ -477,7 +477,7 @@ fn a_hundred_edits_and_their_undoing_leave_no_trace() {
 fn settings_are_taken_over() {
     assert_shows(|renderer| renderer.settings().background = Rgb::ONE);
     assert_shows(|renderer| renderer.settings().shadows = false);
-    assert_shows(|renderer| renderer.settings().antialias = 1);
+    assert_shows(|renderer| renderer.settings().antialias = Antialias::Four);
 }
 
 #[test]

@@ -63,14 +63,79 @@ pub enum Value<'a> {
     Vectors2(&'a mut Vec<DVec2>),
     /// One number for all channels, three numbers of linear light, or sRGB `"#rrggbb"`.
     Color(&'a mut Rgb),
-    /// One of the listed words, by its position.
-    Choice(&'a mut usize, &'static [&'static str]),
+    /// One of a few words.
+    Choice(&'a mut dyn Choice),
     /// Steps of a placement, applied in the written order.
     Steps(&'a mut SmallVec<[Step; 4]>),
     /// A model file.
     Model(&'a mut Asset<TriangleMesh>),
     /// An image file.
     Image(&'a mut Asset<Image>),
+}
+
+/// A value that is one of a few words; made by [`choice!`](crate::choice).
+pub trait Choice: core::fmt::Debug {
+    /// All words, in order.
+    fn words(&self) -> &'static [&'static str];
+
+    /// The position of this word.
+    fn position(&self) -> usize;
+
+    /// Becomes the word at a position; stays as it is if there is none.
+    fn choose(&mut self, position: usize);
+}
+
+/// Declares an enum whose variants are the words of a [`Choice`]; one is marked `#[default]`.
+///
+/// ```
+/// use snell_components::{choice, describe::Choice};
+///
+/// choice! {
+///     /// Which way up.
+///     pub enum Side {
+///         /// Head.
+///         #[default]
+///         Head,
+///         /// Tail.
+///         Tail,
+///     }
+/// }
+/// let mut side = Side::default();
+/// side.choose(1);
+/// assert_eq!((side, side.words()), (Side::Tail, ["Head", "Tail"].as_slice()));
+/// ```
+#[macro_export]
+macro_rules! choice {
+    (
+        $(#[$meta:meta])*
+        $visibility:vis enum $name:ident { $($(#[$variant_meta:meta])* $variant:ident),+ $(,)? }
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+        $visibility enum $name { $($(#[$variant_meta])* $variant),+ }
+
+        impl $name {
+            /// All words, in order.
+            pub const WORDS: &'static [&'static str] = &[$(stringify!($variant)),+];
+            const ALL: &'static [Self] = &[$(Self::$variant),+];
+        }
+
+        impl $crate::describe::Choice for $name {
+            fn words(&self) -> &'static [&'static str] {
+                Self::WORDS
+            }
+
+            fn position(&self) -> usize {
+                *self as usize
+            }
+
+            fn choose(&mut self, position: usize) {
+                if let Some(choice) = Self::ALL.get(position) {
+                    *self = *choice;
+                }
+            }
+        }
+    };
 }
 
 /// Who reads, writes or shows the fields of a component.

@@ -1,6 +1,7 @@
 //! How the picture is taken: settings of the scene as a whole.
 
 use crate::{
+    choice,
     color::Rgb,
     describe::{Describe, FieldVisitor, Spec, Value},
 };
@@ -15,8 +16,8 @@ pub struct Settings {
     pub height: u32,
     /// How many times a ray may be mirrored or let through, one after the other.
     pub depth: u32,
-    /// Position in [`ANTIALIAS`].
-    pub antialias: usize,
+    /// How rays are placed in a pixel.
+    pub antialias: Antialias,
     /// Whether things cast shadows.
     pub shadows: bool,
     /// What a ray sees that meets nothing, linear RGB.
@@ -25,15 +26,31 @@ pub struct Settings {
     pub cutoff: f64,
 }
 
-/// Ways to place rays in a pixel: one through the centre; four at ±¼ of the pixel about the centre, averaged.
-pub const ANTIALIAS: &[&str] = &["Off", "Four"];
+choice! {
+    /// How rays are placed in a pixel.
+    pub enum Antialias {
+        /// One ray through the centre.
+        #[default]
+        Off,
+        /// Four rays at ±¼ of the pixel about the centre; their mean counts.
+        Four,
+    }
+}
 
 /// Largest width and height.
 pub const MAX_SIZE: u32 = 65_536;
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { width: 800, height: 600, depth: 8, antialias: 0, shadows: true, background: Rgb::ZERO, cutoff: 0.001 }
+        Self {
+            width: 800,
+            height: 600,
+            depth: 8,
+            antialias: Antialias::Off,
+            shadows: true,
+            background: Rgb::ZERO,
+            cutoff: 0.001,
+        }
     }
 }
 
@@ -46,7 +63,7 @@ impl Describe for Settings {
         fields.field("height", Value::Integer(&mut self.height), size("pixels down"));
         let depth = Spec::within(0.0, 100_000.0, "mirrored and transmitted rays one after the other");
         fields.field("depth", Value::Integer(&mut self.depth), depth);
-        fields.field("antialias", Value::Choice(&mut self.antialias, ANTIALIAS), Spec::any("rays in a pixel"));
+        fields.field("antialias", Value::Choice(&mut self.antialias), Spec::any("rays in a pixel"));
         fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows"));
         let background = Spec::not_negative("what a ray sees that meets nothing, linear RGB");
         fields.field("background", Value::Color(&mut self.background), background);

@@ -5,7 +5,10 @@ use clap::{
     Args, Parser, Subcommand,
     builder::{PossibleValuesParser, TypedValueParser},
 };
-use snell_components::settings::{ANTIALIAS, MAX_SIZE};
+use snell_components::{
+    describe::Choice,
+    settings::{Antialias, MAX_SIZE},
+};
 use std::path::PathBuf;
 
 /// A Whitted ray tracer whose pictures are the same to the last bit on every machine.
@@ -92,7 +95,7 @@ pub(super) struct Drawing {
 
     /// Rays in a pixel, in place of the scene's
     #[arg(long, value_name = "WAY", ignore_case = true, value_parser = antialias())]
-    pub(super) antialias: Option<usize>,
+    pub(super) antialias: Option<Antialias>,
 
     /// Draw a part of the picture; the file is a crop of the whole, with the size of the part
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
@@ -149,10 +152,13 @@ fn bits(text: &str) -> Result<Bits, String> {
     }
 }
 
-/// Parses a word of [`ANTIALIAS`] to its position.
-fn antialias() -> impl TypedValueParser<Value = usize> {
-    PossibleValuesParser::new(ANTIALIAS).try_map(|word| {
-        ANTIALIAS.iter().position(|known| known.eq_ignore_ascii_case(&word)).ok_or("expected one of the words above")
+/// Parses a word of [`Antialias`].
+fn antialias() -> impl TypedValueParser<Value = Antialias> {
+    PossibleValuesParser::new(Antialias::WORDS).map(|word| {
+        let mut antialias = Antialias::default();
+        let position = Antialias::WORDS.iter().position(|known| known.eq_ignore_ascii_case(&word));
+        antialias.choose(position.unwrap_or_default());
+        antialias
     })
 }
 

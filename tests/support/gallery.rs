@@ -24,7 +24,7 @@ fn point(random: &mut Random, reach: f64) -> DVec3 {
 fn matte() -> Scene {
     let mut scene = Scene::new(
         "matte",
-        small(Settings { antialias: 1, background: Rgb::new(0.2, 0.3, 0.5), ..Settings::default() }),
+        small(Settings { antialias: Antialias::Four, background: Rgb::new(0.2, 0.3, 0.5), ..Settings::default() }),
     );
     scene.put("camera", Camera { position: DVec3::new(0.0, 2.0, 7.0), target: Some(DVec3::Y), ..Camera::default() });
     scene.put("ambient a", AmbientLight { intensity: Rgb::new(0.1, 0.2, 0.3) });

@@ -8,6 +8,7 @@ use super::triangle::weights;
 use crate::{
     asset::Asset,
     bvh::{Box32, Bvh},
+    choice,
     describe::{Describe, FieldVisitor, Spec, Value},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Bounds, Ray},
@@ -234,29 +235,39 @@ fn attribute<const N: usize>(
     Ok(Attribute { values, corners: corners.into_iter().map(|c| c.unwrap_or([ABSENT; 3])).collect() })
 }
 
-/// Which triangles of a mesh are smoothed: the words of the field `shading`, in order.
-const SHADING: &[&str] = &["AsModelled", "Flat", "Smooth"];
+choice! {
+    /// Which triangles of a mesh are smoothed.
+    pub enum Shading {
+        /// Those whose corners have normals in the file.
+        #[default]
+        AsModelled,
+        /// None.
+        Flat,
+        /// All; where the file has no normals, by the mean of the faces around each vertex.
+        Smooth,
+    }
+}
 
 /// A triangle mesh from a file.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Mesh {
     /// The model.
     pub model: Asset<TriangleMesh>,
-    /// Position in `AsModelled`, `Flat`, `Smooth`.
-    pub shading: usize,
+    /// Which triangles are smoothed.
+    pub shading: Shading,
 }
 
 impl Mesh {
     /// A mesh made in memory, shaded as modelled.
     #[must_use]
     pub fn new(model: impl Into<Arc<TriangleMesh>>) -> Self {
-        Self { model: Asset::from_data(model), shading: 0 }
+        Self { model: Asset::from_data(model), shading: Shading::AsModelled }
     }
 
     /// The same mesh with every triangle smoothed.
     #[must_use]
     pub fn smooth(self) -> Self {
-        Self { shading: 2, ..self }
+        Self { shading: Shading::Smooth, ..self }
     }
 }
 
@@ -266,7 +277,7 @@ impl Describe for Mesh {
     fn describe(&mut self, fields: &mut dyn FieldVisitor) {
         let about = "OBJ file, relative to the scene's";
         fields.field("model", Value::Model(&mut self.model), Spec::any(about).required());
-        fields.field("shading", Value::Choice(&mut self.shading, SHADING), Spec::any("which triangles are smoothed"));
+        fields.field("shading", Value::Choice(&mut self.shading), Spec::any("which triangles are smoothed"));
     }
 }
 
@@ -279,7 +290,7 @@ pub struct PackedMesh {
 
 #[derive(Debug)]
 struct Placed {
-    shading: usize,
+    shading: Shading,
     object_from_world: DAffine3,
     world_from_object: DAffine3,
     cotangent: DMat3,
@@ -346,13 +357,13 @@ impl Primitive for Mesh {
         let [u, v, w] = weights(RayFrame::new(&object_ray).hit(vertices, hit.t));
         let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
         let normal = (placed.cotangent * mesh.cross(corners)).normalize_or(DVec3::Y);
-        let normals = match SHADING[placed.shading] {
-            "Flat" => None,
-            "Smooth" => Some(mesh.normals.of(hit.part).map_or_else(
+        let normals = match placed.shading {
+            Shading::Flat => None,
+            Shading::Smooth => Some(mesh.normals.of(hit.part).map_or_else(
                 || corners.map(|v| point(mesh.smooth_normals()[v as usize])),
                 |normals| normals.map(DVec3::from_array),
             )),
-            _ => mesh.normals.of(hit.part).map(|normals| normals.map(DVec3::from_array)),
+            Shading::AsModelled => mesh.normals.of(hit.part).map(|normals| normals.map(DVec3::from_array)),
         };
         let shading_normal = normals.map_or(normal, |normals| (placed.cotangent * blend(normals)).normalize_or(normal));
         let uv = match mesh.uvs.of(hit.part) {

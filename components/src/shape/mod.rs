@@ -8,7 +8,7 @@ mod sphere;
 mod triangle;
 
 pub use cuboid::{Cuboid, PackedCuboid};
-pub use mesh::{Mesh, MeshError, PackedMesh, TriangleMesh};
+pub use mesh::{Mesh, MeshError, PackedMesh, Shading, TriangleMesh};
 pub use plane::{PackedPlane, Plane};
 pub use shear::{RayFrame, TriangleHit};
 pub use sphere::{PackedSphere, Sphere};

@@ -80,7 +80,7 @@ fn settings_text(settings: &Settings) -> String {
                 Value::Integer(n) => n.to_string(),
                 Value::Bool(yes) => yes.to_string(),
                 Value::Color(c) => format!("({:?}, {:?}, {:?})", c.x, c.y, c.z),
-                Value::Choice(at, words) => words.get(*at).copied().unwrap_or_default().into(),
+                Value::Choice(choice) => format!("{choice:?}"),
                 other => format!("{other:?}"),
             };
             self.0.push(format!("{name}: {value}"));

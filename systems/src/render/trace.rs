@@ -7,16 +7,21 @@ use crate::{
 };
 use glam::DVec3;
 use smallvec::SmallVec;
-use snell_components::{color::Rgb, primitive::Cost, space::Ray};
+use snell_components::{color::Rgb, primitive::Cost, settings::Antialias, space::Ray};
 
-/// Where rays pass through a pixel, from its centre, in pixels; by [`snell_components::settings::ANTIALIAS`].
-const SAMPLES: [&[(f64, f64)]; 2] = [&[(0.0, 0.0)], &[(-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25)]];
+/// Where rays pass through a pixel, from its centre, in pixels.
+fn samples(antialias: Antialias) -> &'static [(f64, f64)] {
+    match antialias {
+        Antialias::Off => &[(0.0, 0.0)],
+        Antialias::Four => &[(-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25)],
+    }
+}
 
 /// The linear light of a pixel: a pure function of its arguments but for the counts.
 #[must_use]
 pub fn pixel(snapshot: &Snapshot, x: u32, y: u32, accelerator: Accelerator, counts: &mut Counts) -> Rgb {
     let settings = &snapshot.settings;
-    let samples = SAMPLES[settings.antialias.min(SAMPLES.len() - 1)];
+    let samples = samples(settings.antialias);
     let mut sum = Rgb::ZERO;
     for (dx, dy) in samples {
         let (x, y) = (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);

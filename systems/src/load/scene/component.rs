@@ -139,7 +139,11 @@ impl<'s> Reader<'_, 's> {
             Value::Bool(place) => set(place, values.boolean(node)),
             Value::Vector(place) => set(place, values.vector(node, spec)),
             Value::Color(place) => set(place, values.color(node, spec.range)),
-            Value::Choice(place, words) => set(place, values.choice(node, words)),
+            Value::Choice(place) => {
+                if let Some(position) = values.choice(node, place.words()) {
+                    place.choose(position);
+                }
+            }
             Value::OptionalNumber(place) => {
                 *place = optional(node, values.text).and_then(|node| values.number(node, spec.range));
             }

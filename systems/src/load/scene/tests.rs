@@ -665,7 +665,13 @@ fn settings_are_those_of_the_scene_or_the_defaults() {
     let world =
         good("(version: 1, settings: (width: 1_920, antialias: Four, shadows: false, background: (0.1, 0.2, 0.3)))");
     let background = DVec3::new(0.1, 0.2, 0.3);
-    let expected = Settings { width: 1920, antialias: 1, shadows: false, background, ..Settings::default() };
+    let expected = Settings {
+        width: 1920,
+        antialias: snell_components::settings::Antialias::Four,
+        shadows: false,
+        background,
+        ..Settings::default()
+    };
     assert_eq!(*world.resource::<Settings>(), expected);
 }
 
