@@ -7,7 +7,7 @@ use std::sync::Arc;
 ///
 /// Sums over lights, ties between surfaces and the layout of the trees follow the order of names, never the order in
 /// which entities were made, so a scene renders to the same bits however it was put together. Entities without a name
-/// come after those with one, in the order of their creation.
+/// come after those with one, in the order of their creation as long as none is despawned: name what must keep its place.
 #[derive(Component, Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[component(immutable)]
 pub struct Name(Arc<str>);
