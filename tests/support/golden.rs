@@ -63,6 +63,9 @@ fn matches(pattern: &str, name: &str) -> bool {
     found.is_some_and(|name| name.ends_with(last))
 }
 
+/// Folders, at any depth, whose files are what scenes are made of: no cases and no pictures of cases.
+pub(crate) const PARTS: [&str; 3] = ["models", "parts", "textures"];
+
 /// One golden picture.
 #[derive(Clone, Debug)]
 pub(crate) struct Golden {
@@ -77,7 +80,7 @@ pub(crate) struct Golden {
 }
 
 impl Golden {
-    /// Every scene below `root`, in the order of names.
+    /// Every scene below `root` but those in [`PARTS`], in the order of names.
     pub(crate) fn all(root: &Path, reports: &Path) -> io::Result<Vec<Self>> {
         let golden = |scene: PathBuf| {
             let path = scene.strip_prefix(root).unwrap_or(&scene).with_extension("");
@@ -112,13 +115,27 @@ impl Golden {
         }
     }
 
+    /// The hash of the linear light that the expected picture was blessed with.
+    ///
+    /// # Errors
+    /// The picture is missing, cannot be read or has no hash.
+    pub(crate) fn hash(&self) -> Result<String, String> {
+        let (_, metadata) = image::read(&self.expected).map_err(|why| why.to_string())?;
+        let hash = metadata.get(key::HASH).ok_or_else(|| self.without_hash())?;
+        Ok(hash.into())
+    }
+
+    fn without_hash(&self) -> String {
+        format!("{} has no `{}`", self.expected.display(), key::HASH)
+    }
+
     fn compare(&self, actual: &Picture) -> Result<(), Failure> {
         if !self.expected.exists() {
             return Err(Failure::Missing);
         }
         let (expected, metadata) = image::read(&self.expected).map_err(|why| Failure::Unusable(why.to_string()))?;
         let Some(hash) = metadata.get(key::HASH) else {
-            return Err(Failure::Unusable(format!("{} has no `{}`", self.expected.display(), key::HASH)));
+            return Err(Failure::Unusable(self.without_hash()));
         };
         Difference::between(&expected, hash, actual)
             .map_or(Ok(()), |difference| Err(Failure::Different(expected, Box::new(difference))))
@@ -141,19 +158,22 @@ impl Golden {
     }
 }
 
-/// Pictures below `root` that have no scene.
+/// Pictures below `root`, outside [`PARTS`], that have no scene.
 pub(crate) fn dead(root: &Path) -> io::Result<Vec<PathBuf>> {
     let mut pictures = files(root, "png")?;
     pictures.retain(|picture| !picture.with_extension("ron").exists());
     Ok(pictures)
 }
 
-/// Files with an extension in a folder and all below, in order.
+/// Files with an extension in a folder and all below but [`PARTS`], in order.
 fn files(folder: &Path, extension: &str) -> io::Result<Vec<PathBuf>> {
     let mut found = vec![];
     for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         if path.is_dir() {
+            if path.file_name().is_some_and(|name| PARTS.iter().any(|part| name == *part)) {
+                continue;
+            }
             found.extend(files(&path, extension)?);
         } else if path.extension().is_some_and(|is| is == extension) {
             found.push(path);
