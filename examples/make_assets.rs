@@ -11,7 +11,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     write_assets(Path::new(&folder))
 }
 
-fn write_assets(folder: &Path) -> Result<(), Box<dyn Error>> {
+/// Writes all models and textures below a folder.
+pub(crate) fn write_assets(folder: &Path) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder.join("models"))?;
     fs::create_dir_all(folder.join("textures"))?;
     fs::write(folder.join("models/vase.obj"), vase())?;

@@ -1,4 +1,5 @@
-//! Renders every scene below `tests/golden` and compares it with the picture beside it, to the last bit.
+//! Renders every scene below `tests/golden` and compares it with the picture beside it, to the last bit. What scenes are
+//! made of lies in folders named `models`, `parts` and `textures`.
 //!
 //! `SNELL_BLESS=1 cargo test --test golden` replaces the pictures that fail, `SNELL_BLESS=all` all of them, and any
 //! other value those whose name contains it or, with a `*` in it, matches it. Look at them before they are committed.
@@ -32,7 +33,7 @@ fn trials() -> Result<Vec<Trial>, String> {
     }
     let trial = |golden: Golden| {
         let bless = bless.clone();
-        Trial::test(golden.name.clone(), move || run(&golden, &bless).map_err(Failed::from))
+        Trial::test(golden.case.name.clone(), move || run(&golden, &bless).map_err(Failed::from))
     };
     let mut trials: Vec<_> = goldens.into_iter().map(trial).collect();
     trials.push(Trial::test("every picture has its scene", move || {
@@ -44,7 +45,7 @@ fn trials() -> Result<Vec<Trial>, String> {
 
 fn run(golden: &Golden, bless: &Bless) -> Result<(), String> {
     let mut renderer = Renderer::new();
-    renderer.load(&golden.scene).map_err(|faults| faults.to_string())?;
+    renderer.load(&golden.case.scene).map_err(|faults| faults.to_string())?;
     let snapshot = renderer.snapshot().map_err(|why| why.to_string())?;
     golden.check(&render(&snapshot, &Options::default()).picture, bless)
 }

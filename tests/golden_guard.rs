@@ -3,7 +3,7 @@
 #[path = "support/golden.rs"]
 mod golden;
 
-use golden::{Bless, Difference, Golden, MAX_BYTES, dead};
+use golden::{Bless, Case, Difference, Golden, MAX_BYTES, dead};
 use snell::{Picture, systems::image};
 use std::{fs, path::Path};
 use tempfile::TempDir;
@@ -22,7 +22,7 @@ fn blessed() -> (TempDir, Golden) {
     fs::create_dir(folder.path().join("area")).expect("created");
     fs::write(folder.path().join("area/case.ron"), "").expect("written");
     let golden = Golden::all(folder.path(), &folder.path().join("reports")).expect("read").remove(0);
-    assert_eq!((golden.name.as_str(), &golden.scene), ("area/case", &folder.path().join("area/case.ron")));
+    assert_eq!((golden.case.name.as_str(), &golden.case.scene), ("area/case", &folder.path().join("area/case.ron")));
     golden.check(&picture(), &Bless::Failing).expect("blessed");
     golden.check(&picture(), &Bless::Nothing).expect("equal");
     (folder, golden)
@@ -73,18 +73,18 @@ fn another_size_is_noticed() {
 #[test]
 fn a_missing_picture_fails_and_leaves_a_candidate() {
     let (_folder, golden) = blessed();
-    fs::remove_file(&golden.expected).expect("removed");
+    fs::remove_file(&golden.case.expected).expect("removed");
     let told = golden.check(&picture(), &Bless::Nothing).expect_err("missing");
     assert!(told.contains("there is no golden picture"), "{told}");
-    assert!(!golden.expected.exists());
-    fs::copy(&golden.report, &golden.expected).expect("copied");
+    assert!(!golden.case.expected.exists());
+    fs::copy(&golden.report, &golden.case.expected).expect("copied");
     golden.check(&picture(), &Bless::Nothing).expect("the candidate is what blessing writes");
 }
 
 #[test]
 fn a_picture_without_hash_fails() {
     let (_folder, golden) = blessed();
-    image::write(&golden.expected, image::Format::Png8, &picture(), &image::Metadata::default()).expect("written");
+    image::write(&golden.case.expected, image::Format::Png8, &picture(), &image::Metadata::default()).expect("written");
     let told = golden.check(&picture(), &Bless::Nothing).expect_err("no hash");
     assert!(told.contains("has no `snell:hash`"), "{told}");
 }
@@ -140,6 +140,20 @@ fn only_what_was_named_is_blessed() {
 fn a_picture_without_scene_is_found() {
     let (folder, golden) = blessed();
     assert_eq!(dead(folder.path()).expect("read"), Vec::<&Path>::new());
-    fs::remove_file(&golden.scene).expect("removed");
-    assert_eq!(dead(folder.path()).expect("read"), [golden.expected]);
+    fs::remove_file(&golden.case.scene).expect("removed");
+    assert_eq!(dead(folder.path()).expect("read"), [golden.case.expected]);
+}
+
+#[test]
+fn what_scenes_are_made_of_is_no_case() {
+    let (folder, golden) = blessed();
+    for parts in ["parts", "models", "area/textures"] {
+        fs::create_dir(folder.path().join(parts)).expect("created");
+        fs::copy(&golden.case.scene, folder.path().join(parts).join("part.ron")).expect("copied");
+        fs::copy(&golden.case.expected, folder.path().join(parts).join("image.png")).expect("copied");
+    }
+    fs::write(folder.path().join("area/notes.txt"), "").expect("written");
+    let names: Vec<_> = Case::all(folder.path()).expect("read").into_iter().map(|case| case.name).collect();
+    assert_eq!(names, ["area/case"]);
+    assert_eq!(dead(folder.path()).expect("read"), Vec::<&Path>::new());
 }

@@ -2,6 +2,12 @@
 //!
 //! The PNG shows people what is expected; the hash of the linear light in its metadata catches what 8 bits do not show.
 
+#[path = "cases.rs"]
+mod cases;
+
+pub(crate) use cases::Case;
+
+use cases::files;
 use snell::{
     Picture,
     components::color::linear_from_srgb,
@@ -63,32 +69,19 @@ fn matches(pattern: &str, name: &str) -> bool {
     found.is_some_and(|name| name.ends_with(last))
 }
 
-/// One golden picture.
+/// A golden picture under test.
 #[derive(Clone, Debug)]
 pub(crate) struct Golden {
-    /// Path of the scene below the folder of goldens, without extension.
-    pub(crate) name: String,
-    /// The scene.
-    pub(crate) scene: PathBuf,
-    /// The expected picture.
-    pub(crate) expected: PathBuf,
+    pub(crate) case: Case,
     /// Where a failure leaves pictures to look at.
     pub(crate) report: PathBuf,
 }
 
 impl Golden {
-    /// Every scene below `root`, in the order of names.
+    /// Every case below `root`, in the order of names.
     pub(crate) fn all(root: &Path, reports: &Path) -> io::Result<Vec<Self>> {
-        let golden = |scene: PathBuf| {
-            let path = scene.strip_prefix(root).unwrap_or(&scene).with_extension("");
-            Self {
-                name: path.to_string_lossy().replace('\\', "/"),
-                expected: scene.with_extension("png"),
-                report: reports.join(path).with_extension("png"),
-                scene,
-            }
-        };
-        Ok(files(root, "ron")?.into_iter().map(golden).collect())
+        let golden = |case: Case| Self { report: reports.join(&case.name).with_extension("png"), case };
+        Ok(Case::all(root)?.into_iter().map(golden).collect())
     }
 
     /// Compares a picture with the expected one, or makes it the expected one.
@@ -97,30 +90,27 @@ impl Golden {
     /// What is different, where to look and what to do.
     pub(crate) fn check(&self, actual: &Picture, bless: &Bless) -> Result<(), String> {
         let verdict = self.compare(actual);
-        if bless.wants(&self.name, verdict.is_ok()) {
-            write(&self.expected, actual)?;
+        if bless.wants(&self.case.name, verdict.is_ok()) {
+            write(&self.case.expected, actual)?;
         } else if let Err(failure) = verdict {
             return Err(self.report(actual, &failure));
         }
         // What an earlier failure left would mislead.
         let _ = fs::remove_file(&self.report);
-        match fs::metadata(&self.expected).map_err(|why| why.to_string())?.len() {
+        match fs::metadata(&self.case.expected).map_err(|why| why.to_string())?.len() {
             bytes if bytes > MAX_BYTES => {
-                Err(format!("{} has {bytes} bytes; at most {MAX_BYTES} are allowed", self.expected.display()))
+                Err(format!("{} has {bytes} bytes; at most {MAX_BYTES} are allowed", self.case.expected.display()))
             }
             _ => Ok(()),
         }
     }
 
     fn compare(&self, actual: &Picture) -> Result<(), Failure> {
-        if !self.expected.exists() {
+        if !self.case.expected.exists() {
             return Err(Failure::Missing);
         }
-        let (expected, metadata) = image::read(&self.expected).map_err(|why| Failure::Unusable(why.to_string()))?;
-        let Some(hash) = metadata.get(key::HASH) else {
-            return Err(Failure::Unusable(format!("{} has no `{}`", self.expected.display(), key::HASH)));
-        };
-        Difference::between(&expected, hash, actual)
+        let (expected, hash) = self.case.expected().map_err(Failure::Unusable)?;
+        Difference::between(&expected, &hash, actual)
             .map_or(Ok(()), |difference| Err(Failure::Different(expected, Box::new(difference))))
     }
 
@@ -137,7 +127,10 @@ impl Golden {
             Ok(()) => format!("{shown}: {}", self.report.display()),
             Err(why) => why,
         };
-        format!("{what}\n{written}\nif the new picture is right: SNELL_BLESS={} cargo test --test golden", self.name)
+        format!(
+            "{what}\n{written}\nif the new picture is right: SNELL_BLESS={} cargo test --test golden",
+            self.case.name
+        )
     }
 }
 
@@ -146,21 +139,6 @@ pub(crate) fn dead(root: &Path) -> io::Result<Vec<PathBuf>> {
     let mut pictures = files(root, "png")?;
     pictures.retain(|picture| !picture.with_extension("ron").exists());
     Ok(pictures)
-}
-
-/// Files with an extension in a folder and all below, in order.
-fn files(folder: &Path, extension: &str) -> io::Result<Vec<PathBuf>> {
-    let mut found = vec![];
-    for entry in fs::read_dir(folder)? {
-        let path = entry?.path();
-        if path.is_dir() {
-            found.extend(files(&path, extension)?);
-        } else if path.extension().is_some_and(|is| is == extension) {
-            found.push(path);
-        }
-    }
-    found.sort();
-    Ok(found)
 }
 
 /// Why a picture is not the expected one.
