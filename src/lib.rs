@@ -22,6 +22,8 @@
 //! # Ok::<(), snell::SceneError>(())
 //! ```
 
+pub mod cli;
+
 pub use snell_components as components;
 pub use snell_systems as systems;
 
@@ -57,3 +59,8 @@ pub mod prelude {
         transform::{Step, Transform},
     };
 }
+
+/// The README's Rust code, compiled and run.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

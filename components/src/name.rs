@@ -44,7 +44,9 @@ impl Rank {
     /// The rank of an entity.
     #[must_use]
     pub fn of(entity: Entity, name: Option<&Name>) -> Self {
-        Self { nameless: name.is_none(), name: name.cloned(), age: entity.to_bits() }
+        // Not `to_bits`, which holds the index inverted.
+        let age = u64::from(entity.generation().to_bits()) << 32 | u64::from(entity.index_u32());
+        Self { nameless: name.is_none(), name: name.cloned(), age }
     }
 
     /// The name, if there is one.

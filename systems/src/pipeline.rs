@@ -37,6 +37,8 @@ pub struct Prepare;
 pub enum Stage {
     /// Placements become matrices in the world.
     Transform,
+    /// What was made of components that are gone is taken away.
+    Unpack,
     /// Shapes and lights take the form that rays meet.
     Pack,
     /// Bounding spheres are written and the tree over all shapes is built.
@@ -76,7 +78,8 @@ impl Renderer {
         // An order between two systems that matters must be written down.
         schedule
             .set_build_settings(ScheduleBuildSettings { ambiguity_detection: LogLevel::Error, ..Default::default() });
-        schedule.configure_sets((Stage::Transform, Stage::Pack, Stage::Accelerate, Stage::Extract).chain());
+        schedule
+            .configure_sets((Stage::Transform, Stage::Unpack, Stage::Pack, Stage::Accelerate, Stage::Extract).chain());
         schedule.add_systems((
             transform::propagate.in_set(Stage::Transform),
             accelerate::build.in_set(Stage::Accelerate),
@@ -95,12 +98,12 @@ impl Renderer {
         this.register::<Highlight>(Kind::Effect);
         this.register::<Mirror>(Kind::Effect);
         this.register::<Transmission>(Kind::Effect);
-        this.register::<Refraction>(Kind::Effect);
+        this.register::<Refraction>(Kind::Filling);
         this.register::<Dielectric>(Kind::Effect);
         this.register::<Opacity>(Kind::Effect);
-        this.register::<Absorption>(Kind::Effect);
-        this.register::<Dispersion>(Kind::Effect);
-        this.register::<MediumRank>(Kind::Effect);
+        this.register::<Absorption>(Kind::Filling);
+        this.register::<Dispersion>(Kind::Filling);
+        this.register::<MediumRank>(Kind::Filling);
         this.with_primitive::<Sphere>()
             .with_primitive::<Plane>()
             .with_primitive::<Cuboid>()
@@ -123,6 +126,7 @@ impl Renderer {
         self.register::<P>(Kind::Shape);
         self.world.register_required_components::<P, Transform>();
         // Types of shapes touch separate components and pools, so their order among each other means nothing.
+        self.schedule.add_systems(accelerate::unpack::<P>.in_set(Stage::Unpack).ambiguous_with(Stage::Unpack));
         let systems = (accelerate::pack::<P>, accelerate::pool::<P>).chain();
         self.schedule.add_systems(systems.in_set(Stage::Pack).ambiguous_with(Stage::Pack));
         self
@@ -136,6 +140,7 @@ impl Renderer {
     pub fn with_light<L: Light>(mut self) -> Self {
         self.register::<L>(Kind::Light);
         self.world.register_required_components::<L, Transform>();
+        self.schedule.add_systems(extract::unpack_lights::<L>.in_set(Stage::Unpack).ambiguous_with(Stage::Unpack));
         self.schedule.add_systems(extract::pack_lights::<L>.in_set(Stage::Pack).ambiguous_with(Stage::Pack));
         self
     }
@@ -147,6 +152,7 @@ impl Renderer {
     #[must_use]
     pub fn with_texture<T: Texture>(mut self) -> Self {
         self.register::<T>(Kind::Texture);
+        self.schedule.add_systems(extract::unpack_textures::<T>.in_set(Stage::Unpack).ambiguous_with(Stage::Unpack));
         self.schedule.add_systems(extract::pack_textures::<T>.in_set(Stage::Pack).ambiguous_with(Stage::Pack));
         self
     }

@@ -11,12 +11,14 @@ pub fn propagate(
     moved: Query<(), Moved>,
     mut orphans: RemovedComponents<ChildOf>,
     mut reset: RemovedComponents<Transform>,
-    roots: Query<Entity, (Without<ChildOf>, Or<(With<Transform>, With<Children>)>)>,
+    roots: Query<Entity, (Without<ChildOf>, Or<(With<GlobalTransform>, With<Children>)>)>,
     transforms: Query<&Transform>,
     children: Query<&Children>,
     mut placed: Query<&mut GlobalTransform>,
 ) {
-    if moved.is_empty() && orphans.read().count() == 0 && reset.read().count() == 0 {
+    // Both are read, so that nothing is seen again next time.
+    let removed = orphans.read().count() + reset.read().count();
+    if moved.is_empty() && removed == 0 {
         return;
     }
     let mut pending: Vec<_> = roots.iter().map(|root| (root, glam::DAffine3::IDENTITY)).collect();

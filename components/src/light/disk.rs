@@ -147,7 +147,8 @@ impl Lamp for PackedDisk {
     }
 
     fn sampling(&self) -> Option<Sampling> {
-        (self.area > 0.0).then_some(Sampling { error: self.light.error, most: self.light.samples })
+        let error = self.light.error * self.light.intensity.max_element();
+        (self.area > 0.0).then_some(Sampling { error, most: self.light.samples })
     }
 }
 

@@ -43,7 +43,7 @@ pub trait Lamp: Send + Sync + 'static {
 /// How finely a lamp with an area is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// The standard error at which sampling ends, as a share of the lamp's intensity.
+    /// The standard error at which sampling ends, in the unit of the intensity.
     pub error: f64,
     /// Samples at most.
     pub most: u32,

@@ -72,6 +72,9 @@ impl Primitive for Cuboid {
     type Packed = PackedCuboid;
 
     fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedCuboid), Degenerate> {
+        if !(self.size.is_finite() && self.size.cmpgt(DVec3::ZERO).all()) {
+            return Err(Degenerate(format!("its size is not three numbers above zero: {}", self.size)));
+        }
         let half = self.size * 0.5;
         let bounds = Bounds { min: -half, max: half }.transformed(world_from_object);
         let error = Surface::rounding(bounds.min.abs().max(bounds.max.abs()).max_element());

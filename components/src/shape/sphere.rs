@@ -91,6 +91,9 @@ impl Primitive for Sphere {
     type Packed = PackedSphere;
 
     fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedSphere), Degenerate> {
+        if !(self.radius > 0.0 && self.radius.is_finite()) {
+            return Err(Degenerate(format!("its radius is not a number above zero: {}", self.radius)));
+        }
         let object_from_world = world_from_object.inverse();
         if let Some(scale) = uniform_scale(&world_from_object.matrix3) {
             let (center, radius) = (world_from_object.translation, self.radius * scale);

@@ -9,5 +9,5 @@ mod pack;
 mod pool;
 
 pub use geometry::{Accelerator, Geometry, Intersection};
-pub use pack::{Scenery, build, pack, pool};
+pub use pack::{Scenery, build, pack, pool, unpack};
 pub use pool::{ErasedPool, Nearest, Pool};

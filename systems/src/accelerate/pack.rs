@@ -39,11 +39,20 @@ struct Entry {
     pool: Box<dyn Fn(&[u32]) -> Arc<dyn ErasedPool> + Send + Sync>,
 }
 
+/// Takes away the packed form and the bounding sphere where a shape of one type is gone.
+pub fn unpack<P: Primitive>(
+    mut removed: RemovedComponents<P>,
+    gone: Query<(), (With<Packed<P>>, Without<P>)>,
+    mut commands: Commands,
+) {
+    for entity in removed.read().filter(|entity| gone.contains(*entity)) {
+        commands.entity(entity).remove::<(Packed<P>, BoundingSphere)>();
+    }
+}
+
 /// Packs the shapes of one type that were changed or moved, and writes their bounding spheres.
 pub fn pack<P: Primitive>(
     changed: Query<(Entity, &P, &GlobalTransform), Or<(Changed<P>, Changed<GlobalTransform>)>>,
-    mut removed: RemovedComponents<P>,
-    packed: Query<(), With<Packed<P>>>,
     mut commands: Commands,
 ) {
     for (entity, shape, placed) in &changed {
@@ -59,19 +68,19 @@ pub fn pack<P: Primitive>(
         };
         entity.insert(Packed::<P>(result));
     }
-    for entity in removed.read().filter(|entity| packed.contains(*entity)) {
-        commands.entity(entity).remove::<(Packed<P>, BoundingSphere)>();
-    }
 }
 
 /// Gathers the packed shapes of one type when any of them changed.
 pub fn pool<P: Primitive>(
     changed: Query<(), Or<(Changed<Packed<P>>, (With<Packed<P>>, Changed<Name>))>>,
     mut removed: RemovedComponents<Packed<P>>,
+    mut unnamed: RemovedComponents<Name>,
     all: Query<(Entity, Option<&Name>, &Packed<P>)>,
     mut scenery: ResMut<Scenery>,
 ) {
-    if changed.is_empty() && removed.read().count() == 0 {
+    // All are read, so that nothing is seen again next time.
+    let removed = removed.read().count() + unnamed.read().filter(|entity| all.contains(*entity)).count();
+    if changed.is_empty() && removed == 0 {
         return;
     }
     let mut shapes: Vec<_> =

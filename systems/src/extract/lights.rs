@@ -9,38 +9,47 @@ use snell_components::{
     name::{Name, Rank},
     transform::GlobalTransform,
 };
-use std::sync::Arc;
+use std::{collections::BTreeMap, sync::Arc};
 
-/// A light's packed form, kept on its entity until light or placement change.
-#[derive(Component, Clone)]
-pub struct PackedLamp(Arc<dyn Lamp>);
+/// The packed forms of an entity's lights by tag, kept until light or placement change.
+#[derive(Component, Clone, Default)]
+pub struct PackedLamps(BTreeMap<&'static str, Arc<dyn Lamp>>);
+
+/// Takes away the packed form where a light of one type is gone.
+pub fn unpack_lights<L: Light>(mut removed: RemovedComponents<L>, mut gone: Query<&mut PackedLamps, Without<L>>) {
+    for entity in removed.read() {
+        if let Ok(mut lamps) = gone.get_mut(entity) {
+            lamps.0.remove(L::TAG);
+        }
+    }
+}
 
 /// Packs the lights of one type that were changed or moved.
 pub fn pack_lights<L: Light>(
     changed: Query<(Entity, &L, &GlobalTransform), Or<(Changed<L>, Changed<GlobalTransform>)>>,
-    mut removed: RemovedComponents<L>,
-    packed: Query<(), With<PackedLamp>>,
     mut commands: Commands,
 ) {
-    for entity in removed.read().filter(|entity| packed.contains(*entity)) {
-        commands.entity(entity).remove::<PackedLamp>();
-    }
     for (entity, light, placed) in &changed {
-        commands.entity(entity).insert(PackedLamp(Arc::new(light.pack(&placed.0))));
+        let lamp = Arc::new(light.pack(&placed.0));
+        commands.entity(entity).entry::<PackedLamps>().or_default().and_modify(move |mut lamps| {
+            lamps.0.insert(L::TAG, lamp);
+        });
     }
 }
 
 /// Gathers all lights when any of them changed.
 pub fn gather_lights(
-    changed: Query<(), Or<(Changed<PackedLamp>, Changed<AmbientLight>)>>,
-    renamed: Query<(), (Or<(With<PackedLamp>, With<AmbientLight>)>, Changed<Name>)>,
-    mut lamps_removed: RemovedComponents<PackedLamp>,
+    changed: Query<(), Or<(Changed<PackedLamps>, Changed<AmbientLight>)>>,
+    renamed: Query<(), (Or<(With<PackedLamps>, With<AmbientLight>)>, Changed<Name>)>,
+    mut lamps_removed: RemovedComponents<PackedLamps>,
     mut ambient_removed: RemovedComponents<AmbientLight>,
-    lamps: Query<(Entity, Option<&Name>, &PackedLamp)>,
+    mut unnamed: RemovedComponents<Name>,
+    lamps: Query<(Entity, Option<&Name>, &PackedLamps)>,
     ambient: Query<(Entity, Option<&Name>, &AmbientLight)>,
     mut parts: ResMut<Parts>,
 ) {
-    let removed = lamps_removed.read().count() + ambient_removed.read().count();
+    let shines = |entity: &Entity| lamps.contains(*entity) || ambient.contains(*entity);
+    let removed = lamps_removed.read().count() + ambient_removed.read().count() + unnamed.read().filter(shines).count();
     if changed.is_empty() && renamed.is_empty() && removed == 0 {
         return;
     }
@@ -50,6 +59,6 @@ pub fn gather_lights(
     ambient.sort_unstable_by(|a, b| a.0.cmp(&b.0));
     parts.lights = Arc::new(Lights {
         ambient: ambient.iter().fold(Rgb::ZERO, |sum, (_, light)| sum + light.intensity),
-        lamps: lamps.into_iter().map(|(_, lamp)| lamp.0.clone()).collect(),
+        lamps: lamps.into_iter().flat_map(|(_, lamps)| lamps.0.values().cloned()).collect(),
     });
 }

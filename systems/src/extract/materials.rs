@@ -24,16 +24,19 @@ use std::{
 #[derive(Component, Clone)]
 pub struct PackedTexture(Option<Arc<dyn Pattern>>);
 
-/// Packs the textures of one type that were changed.
-pub fn pack_textures<T: Texture>(
-    changed: Query<(Entity, &T), Changed<T>>,
+/// Takes away the packed form where a texture of one type is gone.
+pub fn unpack_textures<T: Texture>(
     mut removed: RemovedComponents<T>,
-    packed: Query<(), With<PackedTexture>>,
+    gone: Query<(), (With<PackedTexture>, Without<T>)>,
     mut commands: Commands,
 ) {
-    for entity in removed.read().filter(|entity| packed.contains(*entity)) {
+    for entity in removed.read().filter(|entity| gone.contains(*entity)) {
         commands.entity(entity).remove::<PackedTexture>();
     }
+}
+
+/// Packs the textures of one type that were changed.
+pub fn pack_textures<T: Texture>(changed: Query<(Entity, &T), Changed<T>>, mut commands: Commands) {
     for (entity, texture) in &changed {
         commands.entity(entity).insert(PackedTexture(texture.pack()));
     }
@@ -142,13 +145,15 @@ pub fn gather_materials(
     changed: Query<(), Or<(ChangedEffect, Changed<MadeOf>, Changed<MaterialSlots>)>>,
     renamed: Query<(), (AnyEffect, Changed<Name>)>,
     mut removed: RemovedEffects,
+    mut unnamed: RemovedComponents<Name>,
     scenery: Res<Scenery>,
     with_effects: Query<Effects, AnyEffect>,
     made_of: Query<&MadeOf>,
     slots: Query<&MaterialSlots>,
     mut parts: ResMut<Parts>,
 ) {
-    let removed = removed.any();
+    let unnamed = unnamed.read().filter(|entity| with_effects.contains(*entity)).count();
+    let removed = removed.any() || unnamed > 0;
     if changed.is_empty() && renamed.is_empty() && !removed && !scenery.is_changed() {
         return;
     }
@@ -157,46 +162,44 @@ pub fn gather_materials(
         ranked.insert(Rank::of(effects.entity, effects.name), effects);
     }
     let mut all = vec![plain()];
-    let mut media = vec![None];
+    let mut fillings = vec![Filling::default()];
     // Looked up only, never walked.
     let mut index_of: HashMap<Entity, u32> = HashMap::with_capacity(ranked.len());
     for effects in ranked.values() {
         index_of.insert(effects.entity, all.len() as u32);
         all.push(effects.pack());
-        media.push(effects.medium());
+        fillings.push(effects.filling());
     }
     let index = |entity: Entity| index_of.get(&entity).copied().unwrap_or(0);
     // A body with several materials may hold what fills it on its own entity.
     let fills_only = |entity: Entity| with_effects.get(entity).is_ok_and(|effects| effects.fills_only());
     let mut of_object = Vec::with_capacity(scenery.objects.len());
-    let mut medium_of = Vec::with_capacity(scenery.objects.len());
+    let mut media = Vec::with_capacity(scenery.objects.len());
     for &object in scenery.objects.iter() {
-        let (material, medium) = match (made_of.get(object), slots.get(object)) {
-            (Ok(material), _) => {
-                (MaterialOfObject::Whole(index(material.0)), media[index(material.0) as usize].clone())
-            }
+        let (material, filling) = match (made_of.get(object), slots.get(object)) {
+            (Ok(material), _) => (MaterialOfObject::Whole(index(material.0)), fillings[index(material.0) as usize]),
             (_, Ok(slots)) if !slots.0.is_empty() && (fills_only(object) || !index_of.contains_key(&object)) => {
                 let slots: Box<[u32]> = slots.0.iter().map(|entity| index(*entity)).collect();
-                let own = media[index(object) as usize].clone();
-                let medium = own.or_else(|| slots.iter().find_map(|&slot| media[slot as usize].clone()));
-                (MaterialOfObject::Slots(slots), medium)
+                let own = fillings[index(object) as usize];
+                let filling = slots.iter().fold(own, |filling, &slot| filling.or(fillings[slot as usize]));
+                (MaterialOfObject::Slots(slots), filling)
             }
-            _ => (MaterialOfObject::Whole(index(object)), media[index(object) as usize].clone()),
+            _ => (MaterialOfObject::Whole(index(object)), fillings[index(object) as usize]),
         };
         of_object.push(material);
-        medium_of.push(medium);
+        media.push(filling.medium());
     }
-    if medium_of.iter().all(Option::is_none) {
-        medium_of.clear();
+    if media.iter().all(Option::is_none) {
+        media.clear();
     }
     let any_transparent = all.iter().any(Material::is_transparent);
-    parts.materials = Arc::new(Materials { all, of_object, media: medium_of, any_transparent });
+    parts.materials = Arc::new(Materials { all, of_object, media, any_transparent });
 }
 
-/// What things without a material, and materials without a term of light, are made of: a matte surface.
-/// Its ambient and diffuse strengths.
+/// Ambient and diffuse strengths of things without a material, and of materials without a term of light.
 const PLAIN_STRENGTHS: [f64; 2] = [0.1, 0.9];
 
+/// What things without a material are made of: a matte surface.
 fn plain() -> Material {
     let [ambient, diffuse] = PLAIN_STRENGTHS;
     Material {
@@ -265,19 +268,49 @@ impl EffectsItem<'_, '_> {
         }
     }
 
-    /// What a body of this material is filled with, if light goes on inside it in any way but as outside.
-    fn medium(&self) -> Option<Medium> {
-        let index = self.dielectric.map(|d| d.index).filter(|index| *index <= Dielectric::OPAQUE_INDEX);
-        let index = index.or(self.refraction.map(|r| r.index));
-        if index.is_none() && self.absorption.is_none() {
+    /// What is stated of the inside of a body.
+    fn filling(&self) -> Filling {
+        let clear = self.dielectric.map(|dielectric| dielectric.index);
+        let clear = clear.filter(|index| *index <= Dielectric::OPAQUE_INDEX);
+        Filling {
+            index: clear.or(self.refraction.map(|refraction| refraction.index)),
+            absorption: self.absorption.map(|absorption| absorption.0),
+            dispersion: self.dispersion.copied(),
+            rank: self.rank.map(|rank| rank.0),
+        }
+    }
+}
+
+/// What is stated of the inside of a body.
+#[derive(Clone, Copy, Default)]
+struct Filling {
+    index: Option<f64>,
+    absorption: Option<Rgb>,
+    dispersion: Option<Dispersion>,
+    rank: Option<f64>,
+}
+
+impl Filling {
+    /// Completed by another where it states nothing.
+    fn or(self, other: Self) -> Self {
+        Self {
+            index: self.index.or(other.index),
+            absorption: self.absorption.or(other.absorption),
+            dispersion: self.dispersion.or(other.dispersion),
+            rank: self.rank.or(other.rank),
+        }
+    }
+
+    /// The medium, if light goes on in it in any way but as outside.
+    fn medium(self) -> Option<Medium> {
+        if self.index.is_none() && self.absorption.is_none() {
             return None;
         }
-        let index = index.unwrap_or(1.0);
         Some(Medium {
-            index,
-            absorption: self.absorption.map_or(Rgb::ZERO, |absorption| absorption.0),
-            rank: self.rank.map_or(0.0, |rank| rank.0),
-            spectrum: self.dispersion.map(|dispersion| spectrum(index, *dispersion)),
+            index: self.index.unwrap_or(1.0),
+            absorption: self.absorption.unwrap_or(Rgb::ZERO),
+            rank: self.rank.unwrap_or_default(),
+            spectrum: self.index.zip(self.dispersion).map(|(index, dispersion)| spectrum(index, dispersion)),
         })
     }
 }

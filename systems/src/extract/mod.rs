@@ -9,8 +9,8 @@ mod spectrum;
 mod view;
 
 pub use error::SceneError;
-pub use lights::{PackedLamp, gather_lights, pack_lights};
-pub use materials::{PackedTexture, gather_materials, pack_textures};
+pub use lights::{PackedLamps, gather_lights, pack_lights, unpack_lights};
+pub use materials::{PackedTexture, gather_materials, pack_textures, unpack_textures};
 
 use crate::{
     accelerate::Scenery,
@@ -57,13 +57,16 @@ pub fn extract(
     settings: Res<Settings>,
     cameras: Query<(Option<&Name>, Ref<Camera>, Ref<GlobalTransform>)>,
     mut removed: RemovedComponents<Camera>,
+    mut unnamed: RemovedComponents<Name>,
     names: Query<(Entity, &Name)>,
     renamed: Query<(), Changed<Name>>,
     mut outcome: ResMut<Outcome>,
 ) {
     let camera_changed = cameras.iter().any(|(_, camera, placed)| camera.is_changed() || placed.is_changed());
     let resources_changed = scenery.is_changed() || parts.is_changed() || settings.is_changed();
-    if !camera_changed && removed.read().count() == 0 && !resources_changed && renamed.is_empty() {
+    // All are read, so that nothing is seen again next time.
+    let removed = removed.read().count() + unnamed.read().count();
+    if !camera_changed && removed == 0 && !resources_changed && renamed.is_empty() {
         return;
     }
     outcome.0 = (|| {

@@ -14,7 +14,7 @@ use snell_components::{
     color::Rgb,
     light::{Illumination, Sampling},
     math,
-    primitive::{Cost, Surface},
+    primitive::{Cost, OFFSET_ULPS, Surface},
     space::Ray,
     texture::TexturePoint,
 };
@@ -27,7 +27,6 @@ pub(super) struct Point<'a> {
     pub direction: DVec3,
     /// How far the ray went, world units.
     pub travelled: f64,
-    pub object: u32,
     pub surface: Surface,
     pub material: &'a Material,
     /// Whether the ray comes from outside.
@@ -53,8 +52,8 @@ impl<'a> Point<'a> {
             surface.shading_normal = -surface.shading_normal;
         }
         let material = snapshot.materials.at(met.object, surface.slot);
-        let (direction, travelled, object) = (ray.direction, met.t, met.object);
-        Self { snapshot, accelerator, direction, travelled, object, surface, material, entering, interior, key }
+        let (direction, travelled) = (ray.direction, met.t);
+        Self { snapshot, accelerator, direction, travelled, surface, material, entering, interior, key }
     }
 
     /// Sum of the ambient, diffuse and highlight terms.
@@ -126,23 +125,24 @@ impl<'a> Point<'a> {
         let Snapshot { geometry, materials, .. } = self.snapshot;
         let mut cost = Cost::default();
         let mut visible = Rgb::ONE;
-        if !materials.any_transparent {
+        let mut rest = short_of_the_light(&ray, distance);
+        if !materials.any_transparent && materials.media.is_empty() {
             counts.shadow += 1;
-            if geometry.blocked(&ray, distance, self.accelerator, &mut cost) {
+            if geometry.blocked(&ray, rest, self.accelerator, &mut cost) {
                 visible = Rgb::ZERO;
             }
             counts.add(cost);
             return visible;
         }
         let end = ray.at(distance);
-        let mut rest = distance;
-        let length = ray.direction.length();
+        let toward = ray.direction;
+        let length = toward.length();
         let mut interior = self.interior.clone();
         while visible != Rgb::ZERO {
             counts.shadow += 1;
             let met = geometry.closest(&ray, rest, self.accelerator, &mut cost).filter(|met| met.t < rest);
-            let t = met.map_or(rest, |met| met.t);
             if !materials.media.is_empty() {
+                let t = met.map_or(rest, |met| met.t);
                 visible *= interior::transmittance(interior.medium(materials), t * ray.direction.length());
             }
             let Some(met) = met else { break };
@@ -151,7 +151,11 @@ impl<'a> Point<'a> {
             if rest.is_finite() {
                 // Toward the same end from the new start.
                 ray.direction = end - ray.origin;
-                rest = 1.0;
+                rest = short_of_the_light(&ray, 1.0);
+                // The step away from the surface may pass the light: turning back would go on for ever.
+                if ray.direction.dot(toward) <= 0.0 {
+                    break;
+                }
             }
         }
         counts.add(cost);
@@ -229,4 +233,15 @@ struct Arriving {
     cosine: f64,
     /// What arrives after shadows, linear RGB.
     intensity: Rgb,
+}
+
+/// Where the way to a light at `distance` ends: before the rounding error of a surface that the light stands on, which
+/// must not hide it.
+fn short_of_the_light(ray: &Ray, distance: f64) -> f64 {
+    if distance.is_infinite() {
+        return distance;
+    }
+    let length = ray.direction.length();
+    let reach = ray.origin.abs().max_element() + length * distance;
+    distance - OFFSET_ULPS * f64::EPSILON * reach / length
 }

@@ -155,14 +155,20 @@ impl Point<'_> {
                     let cosine = -self.direction.dot(self.surface.shading_normal);
                     // White light is mirrored as one, by the index of its middle.
                     let reflected = self.reflected(cosine, eta_of(sides, wavelength));
-                    add(Kind::Mirror, self.mirrored(), part * reflected, wavelength);
-                    if reflected < 1.0 {
-                        let part = part * (1.0 - reflected);
-                        self.each_line(sides, wavelength, |eta, color, wavelength| match self.refracted(eta) {
-                            Some(direction) => add(Kind::Transmitted, direction, part * color, wavelength),
-                            // Beyond the critical angle of this wavelength alone.
-                            None => add(Kind::Mirror, self.mirrored(), part * color, wavelength),
-                        });
+                    let mut mirrored = part * reflected;
+                    let mut lines: SmallVec<[_; 1]> = SmallVec::new();
+                    self.each_line(sides, wavelength, |eta, color, wavelength| {
+                        let share = part * (1.0 - reflected) * color;
+                        match self.refracted(eta).filter(|_| reflected < 1.0) {
+                            Some(direction) => lines.push((direction, share, wavelength)),
+                            // Beyond the critical angle of this wavelength.
+                            None => mirrored += share,
+                        }
+                    });
+                    let mirrored = if lines.is_empty() { part } else { mirrored };
+                    add(Kind::Mirror, self.mirrored(), mirrored, wavelength);
+                    for (direction, share, wavelength) in lines {
+                        add(Kind::Transmitted, direction, share, wavelength);
                     }
                 }
                 Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. } => {}

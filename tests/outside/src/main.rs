@@ -1,7 +1,5 @@
 //! The whole of Snell's command line, with one more shape.
 
-mod torus;
-
 fn main() -> std::process::ExitCode {
-    snell::cli::run(snell::Renderer::new().with_primitive::<torus::Torus>(), std::env::args_os())
+    snell::cli::run(snell::Renderer::new().with_primitive::<outside::Torus>(), std::env::args_os())
 }

@@ -26,6 +26,11 @@ pub struct PackedTorus {
 }
 
 impl Torus {
+    /// A ring with two radii, object units.
+    pub fn ring(major: f64, minor: f64) -> Self {
+        Self { major, minor }
+    }
+
     /// Distance to the tube, object units.
     fn distance(&self, p: DVec3) -> f64 {
         let ring = (p.x * p.x + p.z * p.z).sqrt() - self.major;

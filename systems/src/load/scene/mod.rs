@@ -1,0 +1,119 @@
+//! Reads scenes: RON text with named entities, each a list of components.
+//!
+//! In order: the texts of all files ([`mod@include`]), what each says ([`node`], [`document`]), the components of every
+//! entity ([`entity`], [`component`], [`values`]), what entities take from each other ([`links`]); and only if nothing at
+//! all is wrong, the entities in the world ([`spawn`]).
+
+mod source;
+
+mod node;
+
+mod document;
+
+mod include;
+
+mod values;
+
+mod component;
+
+mod entity;
+
+mod links;
+
+mod spawn;
+
+use super::{
+    assets::Assets,
+    fault::{Faults, Notice},
+};
+use crate::registry::Registry;
+use bevy_ecs::prelude::*;
+use component::{Given, Written};
+use include::Layout;
+use node::Form;
+use snell_components::{describe::Describe, settings::Settings};
+use source::{Place, Report, Source, excerpt};
+use std::{collections::BTreeMap, path::Path};
+
+/// Reads a scene file, and all files it names, into the world: its entities, and its [`Settings`].
+///
+/// The components that may be named are those in the world's [`Registry`].
+///
+/// # Errors
+/// All that is wrong with the files, in the order of the text; the world is then as it was.
+pub fn read_scene(world: &mut World, path: &Path) -> Result<Vec<Notice>, Faults> {
+    let mut report = Report::default();
+    let sources = include::read_files(path, &mut report)?;
+    read(world, &sources, report)
+}
+
+/// Reads a scene from memory; `path` stands for its file in messages and where the scene names other files.
+///
+/// # Errors
+/// All that is wrong with the text and the files it names, in the order of the text; the world is then as it was.
+pub fn read_scene_text(world: &mut World, text: &str, path: &Path) -> Result<Vec<Notice>, Faults> {
+    let mut report = Report::default();
+    let sources = include::read_all(path, text.into(), &mut report);
+    read(world, &sources, report)
+}
+
+fn read(world: &mut World, sources: &[Source], mut report: Report) -> Result<Vec<Notice>, Faults> {
+    let empty = Registry::default();
+    let registry = world.get_resource().unwrap_or(&empty);
+    let mut assets = Assets::default();
+    let settings = read_settings(sources, &mut assets, &mut report);
+    let layout = Layout::new(sources, &mut report);
+    let mut reader = entity::Reader {
+        registry,
+        layout: &layout,
+        sources,
+        assets: &mut assets,
+        report: &mut report,
+        unknown: BTreeMap::new(),
+    };
+    let stated: Vec<_> = layout.entities.iter().map(|entity| reader.entity(entity)).collect();
+    let wholes = links::complete(&layout, &stated, &mut report);
+    if !report.is_empty() || !assets.faults.is_empty() {
+        let mut faults = report.into_faults(sources);
+        faults.0.append(&mut assets.faults);
+        return Err(faults);
+    }
+    let ready = spawn::prepare(layout, stated, wholes, &mut assets);
+    spawn::spawn(world, ready, &assets);
+    world.insert_resource(settings);
+    Ok(assets.notices)
+}
+
+/// The settings of the scene; those of included files are a fault.
+fn read_settings(sources: &[Source], assets: &mut Assets, report: &mut Report) -> Settings {
+    let mut settings = Settings::default();
+    for (file, source) in sources.iter().enumerate() {
+        let Some(node) = &source.document.settings else { continue };
+        let place = Place { file, offset: node.span.start };
+        let given = match &node.form {
+            _ if file > 0 => {
+                report.add(place, "settings: an included file has none: they belong to the scene");
+                continue;
+            }
+            Form::Fields(fields) => Given::Named(fields),
+            Form::Tuple(items) if items.is_empty() => Given::Nothing,
+            _ => {
+                let found = excerpt(node.text(&source.text));
+                report.add(place, format!("settings: expected `(width: …, height: …)`, found {found}"));
+                continue;
+            }
+        };
+        let written = Written { source, place, given };
+        let filled = component::fill(written, "settings", assets, report, |fields| {
+            let mut settings = Settings::default();
+            settings.describe(fields);
+            let checked = settings.check();
+            (settings, checked)
+        });
+        settings = filled.map_or(settings, |filled| filled.value);
+    }
+    settings
+}
+
+#[cfg(test)]
+mod tests;
