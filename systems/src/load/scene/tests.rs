@@ -17,7 +17,10 @@ use std::{collections::BTreeMap, fs, sync::Arc};
 
 /// A world in which all built-in components are known.
 fn world() -> World {
-    Renderer::new().world
+    let registry = Renderer::new().world.remove_resource::<Registry>().expect("a registry");
+    let mut world = World::new();
+    world.insert_resource(registry);
+    world
 }
 
 /// A folder with files that scenes refer to.
