@@ -46,10 +46,10 @@ pub mod prelude {
         choice,
         color::Rgb,
         describe::{Describe, Fault, FieldVisitor, Spec, Value},
-        light::{AmbientLight, DirectionalLight, Light, PointLight},
+        light::{AmbientLight, ConeLight, DirectionalLight, DiskLight, Emission, FallOff, Light, PointLight},
         material::{
-            Ambient, Color, Dielectric, Diffuse, Highlight, MadeOf, MaterialSlots, Mirror, Opacity, Refraction,
-            Transmission,
+            Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MadeOf, MaterialSlots, MediumRank,
+            Mirror, Opacity, Refraction, Transmission,
         },
         name::Name,
         primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},

@@ -55,7 +55,7 @@ fn glow(color: Rgb) -> (Color, Ambient) {
 }
 
 fn lamp(position: DVec3, intensity: f64) -> PointLight {
-    PointLight { position, intensity: Rgb::splat(intensity) }
+    PointLight { position, intensity: Rgb::splat(intensity), ..PointLight::default() }
 }
 
 /// The least `x` between two at which a condition that holds at the first has ended.
@@ -88,7 +88,7 @@ fn lambert_on_a_plane_is_the_cosine_whatever_the_distance() {
             let position = DVec3::new(sin, cos, 0.0) * distance;
             let snapshot = scene(|world| {
                 world.spawn((Plane {}, Color(color), Diffuse(kd)));
-                world.spawn(PointLight { position, intensity: Rgb::new(0.8, 0.9, 1.0) });
+                world.spawn(PointLight { position, intensity: Rgb::new(0.8, 0.9, 1.0), ..PointLight::default() });
             });
             let found = seen(&snapshot, DVec3::new(-3.0, 2.0, 1.0), DVec3::new(3.0, -2.0, -1.0));
             assert_near(found, color * kd * Rgb::new(0.8, 0.9, 1.0) * cos);
@@ -103,7 +103,11 @@ fn lambert_on_a_sphere_is_the_cosine_to_the_outward_normal() {
     for to_light in [DVec3::X, DVec3::Y, DVec3::Z, DVec3::new(-6.0, 2.0, 3.0) / 7.0, DVec3::new(3.0, -6.0, 2.0) / 7.0] {
         let snapshot = scene(|world| {
             world.spawn((Sphere { radius: 2.0 }, Transform::at(center), Diffuse(Rgb::splat(0.8))));
-            world.spawn(DirectionalLight { direction: to_light * -5.0, intensity: Rgb::ONE });
+            world.spawn(DirectionalLight {
+                direction: to_light * -5.0,
+                intensity: Rgb::ONE,
+                ..DirectionalLight::default()
+            });
         });
         let found = seen(&snapshot, center + normal * 9.0, -normal);
         assert_near(found, Rgb::splat(0.8 * normal.dot(to_light).max(0.0)));
@@ -182,7 +186,11 @@ fn the_light_of_several_lamps_is_the_sum() {
         world.spawn((Plane {}, Diffuse(Rgb::ONE)));
         world.spawn(lamp(to_light[0] * 3.0, 0.5));
         world.spawn(lamp(to_light[1] * 7.0, 0.25));
-        world.spawn(DirectionalLight { direction: -to_light[2], intensity: Rgb::new(0.1, 0.2, 0.4) });
+        world.spawn(DirectionalLight {
+            direction: -to_light[2],
+            intensity: Rgb::new(0.1, 0.2, 0.4),
+            ..DirectionalLight::default()
+        });
     });
     let expected = Rgb::splat(0.5 * 0.8 + 0.25 * 0.6) + Rgb::new(0.1, 0.2, 0.4) * (5.0 / 13.0);
     assert_near(seen(&snapshot, DVec3::new(0.1, 2.0, 0.0), DVec3::new(-0.1, -2.0, 0.0)), expected);

@@ -64,7 +64,10 @@ fn sums_over_lights_follow_their_names_to_the_last_bit() {
         for i in 0..9 {
             let name = if renamed { 4 * i % 9 } else { i };
             let intensity = Rgb::splat(1.0 / f64::from(3 + i * i % 11));
-            scene.put(format!("lamp {name}"), PointLight { position: DVec3::new(f64::from(i), 3.0, 1.0), intensity });
+            scene.put(
+                format!("lamp {name}"),
+                PointLight { position: DVec3::new(f64::from(i), 3.0, 1.0), intensity, ..PointLight::default() },
+            );
             scene.put(format!("sky {name}"), AmbientLight { intensity });
         }
         let snapshot = snapshot(&scene, order);
@@ -137,4 +140,23 @@ fn a_hundred_edits_undone_leave_every_scene_as_it_was() {
         assert_eq!(undone.hash(), picture(&scene).hash(), "{}", scene.name);
         assert_ne!(undone.hash(), edited.hash(), "{}: the edits do not show", scene.name);
     }
+}
+
+#[test]
+fn soft_shadows_are_the_same_on_any_thread_and_in_any_part() {
+    let mut scene = Scene::new("soft", Settings { width: 40, height: 30, ..Settings::default() });
+    scene.put("camera", Camera { position: DVec3::new(0.0, 2.0, 5.0), target: Some(DVec3::Y), ..Camera::default() });
+    scene.put("panel", DiskLight { position: DVec3::new(1.0, 5.0, 1.0), radius: 1.0, ..DiskLight::default() });
+    scene.put("ball", (Sphere { radius: 1.0 }, Transform::at(DVec3::Y), Dielectric { index: 1.5 }));
+    scene.put("bar", (Cuboid { size: DVec3::new(0.3, 3.0, 0.3) }, Transform::at(DVec3::X)));
+    scene.put("ground", Plane {});
+    let whole = picture(&scene);
+    let snapshot = snapshot(&scene, 5);
+    for (threads, tile) in [(1, 7), (3, 16), (2, 64)] {
+        let options = Options { threads: Some(threads), tile: Some(tile), ..Options::default() };
+        assert_eq!(render(&snapshot, &options).picture.hash(), whole.hash(), "{threads} threads, tile {tile}");
+    }
+    let region = Region { x: 5, y: 13, width: 30, height: 10 };
+    let part = render(&snapshot, &Options { region: Some(region), ..Options::default() }).picture;
+    assert_eq!(Some(part), whole.crop(region));
 }

@@ -20,7 +20,8 @@ fn studio() -> Renderer {
     let camera = Camera { position: DVec3::new(0.0, 2.0, 8.0), target: Some(DVec3::Y), ..Camera::default() };
     world.spawn((Name::new("camera"), camera));
     world.spawn((Name::new("sun"), DirectionalLight { direction: DVec3::new(1.0, -2.0, -1.0), ..Default::default() }));
-    world.spawn((Name::new("lamp"), PointLight { position: DVec3::new(3.0, 5.0, 4.0), intensity: Rgb::splat(0.5) }));
+    let lamp = PointLight { position: DVec3::new(3.0, 5.0, 4.0), intensity: Rgb::splat(0.5), ..PointLight::default() };
+    world.spawn((Name::new("lamp"), lamp));
     let red = world.spawn((Name::new("red"), Color(Rgb::new(0.8, 0.1, 0.1)), Diffuse(Rgb::splat(0.9)))).id();
     world.spawn((Name::new("ball"), Sphere { radius: 1.0 }, Transform::at(DVec3::Y), MadeOf(red)));
     world.spawn((Name::new("crate"), Cuboid::default(), Transform::at(DVec3::new(2.0, 0.5, 0.0))));

@@ -158,6 +158,69 @@ impl Describe for Dielectric {
     }
 }
 
+/// `δ`: how strongly a clear body swallows light; of the light that goes a distance R inside, `exp(−δ·R)` is left.
+///
+/// It belongs to the whole body, and needs no [`Refraction`]: without, light goes straight.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Absorption(pub Rgb);
+
+impl Default for Absorption {
+    fn default() -> Self {
+        Self(Rgb::ZERO)
+    }
+}
+
+impl Describe for Absorption {
+    const TAG: &'static str = "Absorption";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        let spec = Spec::not_negative("share swallowed per world unit, as exp(−δ·R), linear RGB").required();
+        fields.field("coefficient", Value::Color(&mut self.0), spec);
+    }
+}
+
+/// Makes the index of a [`Refraction`] or [`Dielectric`] depend on the wavelength: white light fans out into colours.
+///
+/// The index follows Cauchy's formula `n(λ) = A + B/λ²` with the given index at 587.6 nm (the Fraunhofer line d).
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Dispersion {
+    /// Abbe number `(n_d − 1) / (n_F − n_C)`: 20 (flint, much) to 85 (crown, little).
+    pub abbe: f64,
+    /// Into how many wavelengths a white ray is split.
+    pub wavelengths: u32,
+}
+
+impl Default for Dispersion {
+    fn default() -> Self {
+        Self { abbe: 30.0, wavelengths: 8 }
+    }
+}
+
+impl Describe for Dispersion {
+    const TAG: &'static str = "Dispersion";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        let abbe = Spec::within(1.0, 1e6, "Abbe number, from 20, much dispersion, to 85, little");
+        fields.field("abbe", Value::Number(&mut self.abbe), abbe);
+        let wavelengths = Spec::within(2.0, 64.0, "into how many wavelengths a white ray is split");
+        fields.field("wavelengths", Value::Integer(&mut self.wavelengths), wavelengths);
+    }
+}
+
+/// Which of several clear bodies counts where they overlap: the one of highest rank; of equal ones that which the ray
+/// entered last, so that a body inside another needs no rank.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct MediumRank(pub f64);
+
+impl Describe for MediumRank {
+    const TAG: &'static str = "MediumRank";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        let spec = Spec::any("the higher one counts where clear bodies overlap").required();
+        fields.field("rank", Value::Number(&mut self.0), spec);
+    }
+}
+
 /// Alpha blending: the result is `α·A + (1 − α)·B`, `A` the surface's own light with all its other effects and `B` what
 /// lies straight behind.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]

@@ -13,6 +13,18 @@ pub fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// e to the power `x`.
+#[must_use]
+pub fn exp(x: f64) -> f64 {
+    libm::exp(x)
+}
+
+/// Logarithm to base 2.
+#[must_use]
+pub fn log2(x: f64) -> f64 {
+    libm::log2(x)
+}
+
 /// Angle of the point `(x, y)` in radians, −π to π; zero for the origin.
 #[must_use]
 pub fn atan2(y: f64, x: f64) -> f64 {

@@ -20,6 +20,8 @@ pub struct Settings {
     pub antialias: Antialias,
     /// Whether things cast shadows.
     pub shadows: bool,
+    /// Whether transmitted rays bend at the surface of bodies with an index; if not they go straight on.
+    pub refraction: bool,
     /// What a ray sees that meets nothing, linear RGB.
     pub background: Rgb,
     /// Mirrored and transmitted rays whose weight in the pixel is below this in every channel are not followed.
@@ -48,6 +50,7 @@ impl Default for Settings {
             depth: 8,
             antialias: Antialias::Off,
             shadows: true,
+            refraction: true,
             background: Rgb::ZERO,
             cutoff: 0.001,
         }
@@ -65,6 +68,8 @@ impl Describe for Settings {
         fields.field("depth", Value::Integer(&mut self.depth), depth);
         fields.field("antialias", Value::Choice(&mut self.antialias), Spec::any("rays in a pixel"));
         fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows"));
+        let bends = Spec::any("whether transmitted rays bend; if not they go straight on");
+        fields.field("refraction", Value::Bool(&mut self.refraction), bends);
         let background = Spec::not_negative("what a ray sees that meets nothing, linear RGB");
         fields.field("background", Value::Color(&mut self.background), background);
         let cutoff = Spec::within(0.0, 1.0, "weight below which mirrored and transmitted rays are not followed");

@@ -15,8 +15,11 @@ use bevy_ecs::{
 use snell_components::{
     camera::Camera,
     describe::Describe,
-    light::{AmbientLight, DirectionalLight, Light, PointLight},
-    material::{Ambient, Color, Dielectric, Diffuse, Highlight, Mirror, Opacity, Refraction, Transmission},
+    light::{AmbientLight, ConeLight, DirectionalLight, DiskLight, Light, PointLight},
+    material::{
+        Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MediumRank, Mirror, Opacity,
+        Refraction, Transmission,
+    },
     primitive::Primitive,
     settings::Settings,
     shape::{Cuboid, Mesh, Plane, Sphere, Triangle},
@@ -95,9 +98,12 @@ impl Renderer {
         this.register::<Highlight>(Kind::Effect);
         this.register::<Mirror>(Kind::Effect);
         this.register::<Transmission>(Kind::Effect);
-        this.register::<Refraction>(Kind::Effect);
+        this.register::<Refraction>(Kind::Filling);
         this.register::<Dielectric>(Kind::Effect);
         this.register::<Opacity>(Kind::Effect);
+        this.register::<Absorption>(Kind::Filling);
+        this.register::<Dispersion>(Kind::Filling);
+        this.register::<MediumRank>(Kind::Filling);
         this.with_primitive::<Sphere>()
             .with_primitive::<Plane>()
             .with_primitive::<Cuboid>()
@@ -105,6 +111,8 @@ impl Renderer {
             .with_primitive::<Mesh>()
             .with_light::<PointLight>()
             .with_light::<DirectionalLight>()
+            .with_light::<ConeLight>()
+            .with_light::<DiskLight>()
             .with_texture::<ImageTexture>()
             .with_texture::<Checker>()
     }

@@ -15,6 +15,8 @@ pub enum Kind {
     Texture,
     /// An optical effect of a material.
     Effect,
+    /// An effect of what fills a body; its surface may be made of other materials.
+    Filling,
     /// The camera.
     Camera,
     /// Where the entity is.

@@ -1,6 +1,6 @@
 //! All that a render needs, copied out of the world: immutable, cheap to clone, independent of the world's future.
 
-use crate::accelerate::Geometry;
+use crate::{accelerate::Geometry, render::Interior};
 use glam::DVec3;
 use snell_components::{
     color::Rgb,
@@ -17,6 +17,8 @@ use std::sync::Arc;
 pub struct Snapshot {
     /// Where rays start.
     pub view: View,
+    /// The clear bodies that the pinhole lies in.
+    pub inside: Interior,
     /// How the picture is taken.
     pub settings: Settings,
     /// What rays meet.
@@ -47,8 +49,56 @@ pub struct Materials {
     pub all: Vec<Material>,
     /// By rank of the object.
     pub of_object: Vec<MaterialOfObject>,
+    /// The clear bodies, by rank of the object; empty if there are none.
+    pub media: Vec<Option<Medium>>,
     /// Whether light passes through any material.
     pub any_transparent: bool,
+}
+
+/// What a clear body is filled with.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Medium {
+    /// Refractive index at 587.6 nm.
+    pub index: f64,
+    /// Share swallowed per world unit, as `exp(−δ·R)`.
+    pub absorption: Rgb,
+    /// Which of overlapping bodies counts: the higher.
+    pub rank: f64,
+    /// How the index depends on the wavelength, if it does.
+    pub spectrum: Option<Spectrum>,
+}
+
+impl Medium {
+    /// Where nothing is.
+    pub const VACUUM: Self = Self { index: 1.0, absorption: Rgb::ZERO, rank: f64::NEG_INFINITY, spectrum: None };
+
+    /// The index at a wavelength in nanometres; without one, that of white light.
+    #[must_use]
+    pub fn index_at(&self, wavelength: Option<f64>) -> f64 {
+        match (wavelength, &self.spectrum) {
+            (Some(wavelength), Some(spectrum)) => spectrum.index(wavelength),
+            _ => self.index,
+        }
+    }
+}
+
+/// How an index depends on the wavelength, and into which wavelengths white light is split.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spectrum {
+    /// Constant term of Cauchy's formula.
+    pub a: f64,
+    /// Coefficient of `1/λ²`, in square nanometres.
+    pub b: f64,
+    /// Wavelengths in nanometres, and how much red, green and blue each carries; together white.
+    pub lines: Box<[(f64, Rgb)]>,
+}
+
+impl Spectrum {
+    /// Cauchy's formula `n(λ) = A + B/λ²`.
+    #[must_use]
+    pub fn index(&self, wavelength: f64) -> f64 {
+        self.a + self.b / (wavelength * wavelength)
+    }
 }
 
 /// What one object is made of: indices into [`Materials::all`].
@@ -61,6 +111,13 @@ pub enum MaterialOfObject {
 }
 
 impl Materials {
+    /// What an object is filled with, if it is a clear body.
+    #[must_use]
+    #[inline]
+    pub fn medium(&self, object: u32) -> Option<&Medium> {
+        self.media.get(object as usize).and_then(Option::as_ref)
+    }
+
     /// The material of an object at a surface slot; slots beyond the last have the last one's.
     #[must_use]
     #[inline]
@@ -104,20 +161,10 @@ pub enum Effect {
     Mirror(Rgb),
     /// What lies straight behind.
     Through(Rgb),
-    /// What lies behind, seen through the surface of a body with this index.
-    Refract {
-        /// Strength.
-        strength: Rgb,
-        /// Index inside.
-        index: f64,
-    },
-    /// Mirror and refraction by Fresnel's equations.
-    Split {
-        /// What the two share.
-        part: Rgb,
-        /// Index inside.
-        index: f64,
-    },
+    /// What lies behind, seen through the surface of a clear body.
+    Refract(Rgb),
+    /// Mirror and refraction at the surface of a clear body, which share this by Fresnel's equations.
+    Split(Rgb),
 }
 
 impl Material {
@@ -134,7 +181,7 @@ impl Material {
     /// Whether light passes through.
     #[must_use]
     pub fn is_transparent(&self) -> bool {
-        self.effects.iter().any(|e| matches!(e, Effect::Through(_) | Effect::Refract { .. } | Effect::Split { .. }))
+        self.effects.iter().any(|e| matches!(e, Effect::Through(_) | Effect::Refract(_) | Effect::Split(_)))
     }
 }
 

@@ -29,9 +29,22 @@ fn matte() -> Scene {
     scene.put("camera", Camera { position: DVec3::new(0.0, 2.0, 7.0), target: Some(DVec3::Y), ..Camera::default() });
     scene.put("ambient a", AmbientLight { intensity: Rgb::new(0.1, 0.2, 0.3) });
     scene.put("ambient b", AmbientLight { intensity: Rgb::new(0.3, 0.1, 0.1) });
-    scene.put("lamp a", PointLight { position: DVec3::new(3.0, 5.0, 4.0), intensity: Rgb::new(0.7, 0.6, 0.5) });
-    scene.put("lamp b", PointLight { position: DVec3::new(-4.0, 3.0, 2.0), intensity: Rgb::splat(0.3) });
-    scene.put("sun", DirectionalLight { direction: DVec3::new(-1.0, -2.0, -0.5), intensity: Rgb::splat(0.4) });
+    scene.put(
+        "lamp a",
+        PointLight { position: DVec3::new(3.0, 5.0, 4.0), intensity: Rgb::new(0.7, 0.6, 0.5), ..PointLight::default() },
+    );
+    scene.put(
+        "lamp b",
+        PointLight { position: DVec3::new(-4.0, 3.0, 2.0), intensity: Rgb::splat(0.3), ..PointLight::default() },
+    );
+    scene.put(
+        "sun",
+        DirectionalLight {
+            direction: DVec3::new(-1.0, -2.0, -0.5),
+            intensity: Rgb::splat(0.4),
+            ..DirectionalLight::default()
+        },
+    );
     let texels = (0..16).map(|i| [i as f32 / 15.0, ((i * 5) % 16) as f32 / 15.0, ((i * 11) % 16) as f32 / 15.0]);
     let image = ImageTexture { image: Asset::from_data(Image::new(4, 4, texels.collect()).expect("an image")) };
     scene.put("painted", (image, Diffuse(Rgb::splat(0.8)), Ambient(Rgb::splat(0.4))));
@@ -87,8 +100,18 @@ fn glass() -> Scene {
         },
     );
     scene.put("ambient", AmbientLight::default());
-    scene.put("lamp", PointLight { position: DVec3::new(2.0, 6.0, 3.0), intensity: Rgb::splat(0.8) });
-    scene.put("sun", DirectionalLight { direction: DVec3::new(1.0, -3.0, -1.0), intensity: Rgb::splat(0.3) });
+    scene.put(
+        "lamp",
+        PointLight { position: DVec3::new(2.0, 6.0, 3.0), intensity: Rgb::splat(0.8), ..PointLight::default() },
+    );
+    scene.put(
+        "sun",
+        DirectionalLight {
+            direction: DVec3::new(1.0, -3.0, -1.0),
+            intensity: Rgb::splat(0.3),
+            ..DirectionalLight::default()
+        },
+    );
     scene.put(
         "crown",
         (
@@ -195,7 +218,10 @@ fn meshes() -> Scene {
         },
     );
     scene.put("ambient", AmbientLight { intensity: Rgb::splat(0.3) });
-    scene.put("lamp", PointLight { position: DVec3::new(5.0, 7.0, 6.0), intensity: Rgb::splat(0.9) });
+    scene.put(
+        "lamp",
+        PointLight { position: DVec3::new(5.0, 7.0, 6.0), intensity: Rgb::splat(0.9), ..PointLight::default() },
+    );
     scene.put("red", (Color(Rgb::new(0.8, 0.2, 0.1)), Diffuse(Rgb::ONE), Ambient(Rgb::ONE)));
     scene.put(
         "shiny",
@@ -237,7 +263,10 @@ fn crowd() -> Scene {
             Transform::new([Step::RotateX(-20.0), Step::RotateY(10.0), Step::Translate(DVec3::new(2.0, 6.0, 14.0))]),
         ),
     );
-    scene.put("lamp", PointLight { position: DVec3::new(-9.0, 12.0, 9.0), intensity: Rgb::splat(0.9) });
+    scene.put(
+        "lamp",
+        PointLight { position: DVec3::new(-9.0, 12.0, 9.0), intensity: Rgb::splat(0.9), ..PointLight::default() },
+    );
     scene.put("ambient", AmbientLight { intensity: Rgb::splat(0.2) });
     let mut random = Random(7);
     for (name, x) in [("black", 0.1), ("grey", 0.5), ("white", 0.9)] {
@@ -288,7 +317,10 @@ fn mirrors() -> Scene {
             ..Camera::default()
         },
     );
-    scene.put("lamp", PointLight { position: DVec3::new(0.0, 1.5, 0.5), intensity: Rgb::splat(0.7) });
+    scene.put(
+        "lamp",
+        PointLight { position: DVec3::new(0.0, 1.5, 0.5), intensity: Rgb::splat(0.7), ..PointLight::default() },
+    );
     scene.put("silver", (Mirror(Rgb::new(0.85, 0.9, 0.8)), Diffuse(Rgb::splat(0.1))));
     scene.put(
         "wax",

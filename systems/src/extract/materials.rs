@@ -1,16 +1,16 @@
 //! Materials, out of the world.
 
-use super::Parts;
+use super::{Parts, spectrum::spectrum};
 use crate::{
     accelerate::Scenery,
-    snapshot::{Effect, Material, MaterialOfObject, Materials},
+    snapshot::{Effect, Material, MaterialOfObject, Materials, Medium},
 };
 use bevy_ecs::{prelude::*, query::QueryData, system::SystemParam};
 use snell_components::{
     color::Rgb,
     material::{
-        Ambient, Color, Dielectric, Diffuse, Highlight, MadeOf, MaterialSlots, Mirror, Opacity, Refraction,
-        Transmission,
+        Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MadeOf, MaterialSlots, MediumRank,
+        Mirror, Opacity, Refraction, Transmission,
     },
     name::{Name, Rank},
     texture::{Pattern, Texture},
@@ -56,6 +56,9 @@ pub struct Effects {
     refraction: Option<&'static Refraction>,
     dielectric: Option<&'static Dielectric>,
     opacity: Option<&'static Opacity>,
+    absorption: Option<&'static Absorption>,
+    dispersion: Option<&'static Dispersion>,
+    rank: Option<&'static MediumRank>,
     texture: Option<&'static PackedTexture>,
 }
 
@@ -70,6 +73,9 @@ type AnyEffect = Or<(
     With<Refraction>,
     With<Dielectric>,
     With<Opacity>,
+    With<Absorption>,
+    With<Dispersion>,
+    With<MediumRank>,
     With<PackedTexture>,
 )>;
 
@@ -84,6 +90,9 @@ type ChangedEffect = Or<(
     Changed<Refraction>,
     Changed<Dielectric>,
     Changed<Opacity>,
+    Changed<Absorption>,
+    Changed<Dispersion>,
+    Changed<MediumRank>,
     Changed<PackedTexture>,
 )>;
 
@@ -99,6 +108,9 @@ pub struct RemovedEffects<'w, 's> {
     refraction: RemovedComponents<'w, 's, Refraction>,
     dielectric: RemovedComponents<'w, 's, Dielectric>,
     opacity: RemovedComponents<'w, 's, Opacity>,
+    absorption: RemovedComponents<'w, 's, Absorption>,
+    dispersion: RemovedComponents<'w, 's, Dispersion>,
+    rank: RemovedComponents<'w, 's, MediumRank>,
     texture: RemovedComponents<'w, 's, PackedTexture>,
     made_of: RemovedComponents<'w, 's, MadeOf>,
     slots: RemovedComponents<'w, 's, MaterialSlots>,
@@ -117,6 +129,9 @@ impl RemovedEffects<'_, '_> {
             self.refraction.read().count(),
             self.dielectric.read().count(),
             self.opacity.read().count(),
+            self.absorption.read().count(),
+            self.dispersion.read().count(),
+            self.rank.read().count(),
             self.texture.read().count(),
             self.made_of.read().count(),
             self.slots.read().count(),
@@ -147,39 +162,74 @@ pub fn gather_materials(
         ranked.insert(Rank::of(effects.entity, effects.name), effects);
     }
     let mut all = vec![plain()];
+    let mut fillings = vec![Filling::default()];
     // Looked up only, never walked.
     let mut index_of: HashMap<Entity, u32> = HashMap::with_capacity(ranked.len());
     for effects in ranked.values() {
         index_of.insert(effects.entity, all.len() as u32);
         all.push(effects.pack());
+        fillings.push(effects.filling());
     }
     let index = |entity: Entity| index_of.get(&entity).copied().unwrap_or(0);
-    let of_object = scenery
-        .objects
-        .iter()
-        .map(|&object| match (made_of.get(object), slots.get(object)) {
-            (Ok(material), _) => MaterialOfObject::Whole(index(material.0)),
-            (_, Ok(slots)) if !slots.0.is_empty() && !index_of.contains_key(&object) => {
-                MaterialOfObject::Slots(slots.0.iter().map(|entity| index(*entity)).collect())
+    // A body with several materials may hold what fills it on its own entity.
+    let fills_only = |entity: Entity| with_effects.get(entity).is_ok_and(|effects| effects.fills_only());
+    let mut of_object = Vec::with_capacity(scenery.objects.len());
+    let mut media = Vec::with_capacity(scenery.objects.len());
+    for &object in scenery.objects.iter() {
+        let (material, filling) = match (made_of.get(object), slots.get(object)) {
+            (Ok(material), _) => (MaterialOfObject::Whole(index(material.0)), fillings[index(material.0) as usize]),
+            (_, Ok(slots)) if !slots.0.is_empty() && (fills_only(object) || !index_of.contains_key(&object)) => {
+                let slots: Box<[u32]> = slots.0.iter().map(|entity| index(*entity)).collect();
+                let own = fillings[index(object) as usize];
+                let filling = slots.iter().fold(own, |filling, &slot| filling.or(fillings[slot as usize]));
+                (MaterialOfObject::Slots(slots), filling)
             }
-            _ => MaterialOfObject::Whole(index(object)),
-        })
-        .collect();
+            _ => (MaterialOfObject::Whole(index(object)), fillings[index(object) as usize]),
+        };
+        of_object.push(material);
+        media.push(filling.medium());
+    }
+    if media.iter().all(Option::is_none) {
+        media.clear();
+    }
     let any_transparent = all.iter().any(Material::is_transparent);
-    parts.materials = Arc::new(Materials { all, of_object, any_transparent });
+    parts.materials = Arc::new(Materials { all, of_object, media, any_transparent });
 }
 
-/// The material of things that have none: matte white.
+/// Ambient and diffuse strengths of things without a material, and of materials without a term of light.
+const PLAIN_STRENGTHS: [f64; 2] = [0.1, 0.9];
+
+/// What things without a material are made of: a matte surface.
 fn plain() -> Material {
-    let effects = [Effect::Ambient(Rgb::splat(0.1)), Effect::Diffuse(Rgb::splat(0.9))];
-    Material { color: Rgb::ONE, texture: None, effects: effects.into() }
+    let [ambient, diffuse] = PLAIN_STRENGTHS;
+    Material {
+        color: Rgb::ONE,
+        texture: None,
+        effects: [Effect::Ambient(Rgb::splat(ambient)), Effect::Diffuse(Rgb::splat(diffuse))].into(),
+    }
 }
 
 impl EffectsItem<'_, '_> {
+    /// Whether some term of light is stated.
+    fn has_light(&self) -> bool {
+        self.ambient.is_some()
+            || self.diffuse.is_some()
+            || self.highlight.is_some()
+            || self.mirror.is_some()
+            || self.transmission.is_some()
+            || self.dielectric.is_some()
+    }
+
+    /// Whether nothing is stated of the surface, only of what fills the body.
+    fn fills_only(&self) -> bool {
+        !self.has_light() && self.color.is_none() && self.texture.is_none() && self.opacity.is_none()
+    }
+
     fn pack(&self) -> Material {
         let strength = |value: Option<Rgb>| value.unwrap_or(Rgb::ZERO);
-        let ambient = strength(self.ambient.map(|k| k.0));
-        let diffuse = strength(self.diffuse.map(|k| k.0));
+        let [plain_ambient, plain_diffuse] = if self.has_light() { [0.0; 2] } else { PLAIN_STRENGTHS };
+        let ambient = self.ambient.map_or(Rgb::splat(plain_ambient), |k| k.0);
+        let diffuse = self.diffuse.map_or(Rgb::splat(plain_diffuse), |k| k.0);
         let highlight = self.highlight.copied().unwrap_or(Highlight { strength: Rgb::ZERO, exponent: 1.0 });
         // Alpha blending weighs the surface's own light by α and what lies straight behind by 1 − α.
         let alpha = self.opacity.map_or(1.0, |opacity| opacity.alpha);
@@ -200,19 +250,14 @@ impl EffectsItem<'_, '_> {
         let mut behind = Rgb::splat(1.0 - alpha);
         if let Some(Dielectric { index }) = self.dielectric.copied() {
             let part = (Rgb::ONE - ambient - diffuse - highlight.strength).max(Rgb::ZERO) * alpha;
-            if index > Dielectric::OPAQUE_INDEX {
-                add(part, &Effect::Mirror);
-            } else {
-                add(part, &|part| Effect::Split { part, index });
-            }
+            add(part, if index > Dielectric::OPAQUE_INDEX { &Effect::Mirror } else { &Effect::Split });
         } else {
             add(strength(self.mirror.map(|k| k.0)) * alpha, &Effect::Mirror);
             let transmission = strength(self.transmission.map(|k| k.0)) * alpha;
-            match self.refraction {
-                Some(Refraction { index }) => {
-                    add(transmission, &|strength| Effect::Refract { strength, index: *index })
-                }
-                None => behind += transmission,
+            if self.refraction.is_some() {
+                add(transmission, &Effect::Refract);
+            } else {
+                behind += transmission;
             }
         }
         add(behind, &Effect::Through);
@@ -221,5 +266,51 @@ impl EffectsItem<'_, '_> {
             texture: self.texture.and_then(|texture| texture.0.clone()),
             effects: effects.into(),
         }
+    }
+
+    /// What is stated of the inside of a body.
+    fn filling(&self) -> Filling {
+        let clear = self.dielectric.map(|dielectric| dielectric.index);
+        let clear = clear.filter(|index| *index <= Dielectric::OPAQUE_INDEX);
+        Filling {
+            index: clear.or(self.refraction.map(|refraction| refraction.index)),
+            absorption: self.absorption.map(|absorption| absorption.0),
+            dispersion: self.dispersion.copied(),
+            rank: self.rank.map(|rank| rank.0),
+        }
+    }
+}
+
+/// What is stated of the inside of a body.
+#[derive(Clone, Copy, Default)]
+struct Filling {
+    index: Option<f64>,
+    absorption: Option<Rgb>,
+    dispersion: Option<Dispersion>,
+    rank: Option<f64>,
+}
+
+impl Filling {
+    /// Completed by another where it states nothing.
+    fn or(self, other: Self) -> Self {
+        Self {
+            index: self.index.or(other.index),
+            absorption: self.absorption.or(other.absorption),
+            dispersion: self.dispersion.or(other.dispersion),
+            rank: self.rank.or(other.rank),
+        }
+    }
+
+    /// The medium, if light goes on in it in any way but as outside.
+    fn medium(self) -> Option<Medium> {
+        if self.index.is_none() && self.absorption.is_none() {
+            return None;
+        }
+        Some(Medium {
+            index: self.index.unwrap_or(1.0),
+            absorption: self.absorption.unwrap_or(Rgb::ZERO),
+            rank: self.rank.unwrap_or_default(),
+            spectrum: self.index.zip(self.dispersion).map(|(index, dispersion)| spectrum(index, dispersion)),
+        })
     }
 }

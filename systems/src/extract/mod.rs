@@ -5,6 +5,7 @@
 mod error;
 mod lights;
 mod materials;
+mod spectrum;
 mod view;
 
 pub use error::SceneError;
@@ -13,6 +14,7 @@ pub use materials::{PackedTexture, gather_materials, pack_textures, unpack_textu
 
 use crate::{
     accelerate::Scenery,
+    render::Interior,
     snapshot::{Lights, Materials, Snapshot},
 };
 use bevy_ecs::prelude::*;
@@ -82,8 +84,11 @@ pub fn extract(
         let shown = |entity: Entity| name_of(entity).map_or_else(|| format!("{entity}"), |name| name.to_string());
         let mut left_out: Vec<_> = scenery.left_out.iter().map(|(entity, why)| (shown(*entity), why.clone())).collect();
         left_out.sort();
+        let view = view::view(&camera, &placed.0)?;
+        let inside = Interior::around(view.eye, &scenery.geometry, &parts.materials);
         Ok(Arc::new(Snapshot {
-            view: view::view(&camera, &placed.0)?,
+            view,
+            inside,
             settings: settings.clone(),
             geometry: scenery.geometry.clone(),
             materials: parts.materials.clone(),

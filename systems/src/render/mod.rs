@@ -4,14 +4,18 @@
 //! order of tiles nor the region can change a bit of it.
 
 mod counts;
+mod interior;
 mod optics;
 mod picture;
+mod sampler;
 mod shade;
 mod tile;
 mod trace;
 
 pub use counts::Counts;
+pub use interior::Interior;
 pub use optics::{fresnel, reflect, refract};
 pub use picture::{Picture, Region};
+pub use sampler::Key;
 pub use tile::{Frame, OnTile, Options, Progress, Stop, Tile, render};
 pub use trace::pixel;

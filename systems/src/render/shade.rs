@@ -1,13 +1,18 @@
 //! Light at one point of a surface: the local terms of the Whitted sum, and shadows.
 
-use super::{Counts, optics};
+use super::{
+    Counts, Key,
+    interior::{self, Interior, Sides},
+    optics,
+};
 use crate::{
     accelerate::{Accelerator, Intersection},
     snapshot::{Effect, Material, Snapshot},
 };
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use snell_components::{
     color::Rgb,
+    light::{Illumination, Sampling},
     math,
     primitive::{Cost, OFFSET_ULPS, Surface},
     space::Ray,
@@ -26,10 +31,20 @@ pub(super) struct Point<'a> {
     pub material: &'a Material,
     /// Whether the ray comes from outside.
     pub entering: bool,
+    /// The clear bodies that the ray comes through.
+    pub interior: &'a Interior,
+    pub key: Key,
 }
 
 impl<'a> Point<'a> {
-    pub(super) fn new(snapshot: &'a Snapshot, accelerator: Accelerator, ray: &Ray, met: Intersection) -> Self {
+    pub(super) fn new(
+        snapshot: &'a Snapshot,
+        accelerator: Accelerator,
+        ray: &Ray,
+        met: Intersection,
+        interior: &'a Interior,
+        key: Key,
+    ) -> Self {
         let mut surface = met.surface;
         let entering = surface.normal.dot(ray.direction) < 0.0;
         if !entering {
@@ -37,7 +52,8 @@ impl<'a> Point<'a> {
             surface.shading_normal = -surface.shading_normal;
         }
         let material = snapshot.materials.at(met.object, surface.slot);
-        Self { snapshot, accelerator, direction: ray.direction, travelled: met.t, surface, material, entering }
+        let (direction, travelled) = (ray.direction, met.t);
+        Self { snapshot, accelerator, direction, travelled, surface, material, entering, interior, key }
     }
 
     /// Sum of the ambient, diffuse and highlight terms.
@@ -54,13 +70,13 @@ impl<'a> Point<'a> {
                     self.over_lights(counts, |light| {
                         // Where the mirrored light points away from the viewer there is no highlight, whatever the
                         // exponent.
-                        let aligned =
-                            -optics::reflect(-light.direction, self.surface.shading_normal).dot(self.direction);
+                        let mirrored = optics::reflect(-light.direction, self.surface.shading_normal);
+                        let aligned = -mirrored.dot(self.direction);
                         let shine = if aligned > 0.0 { math::pow(aligned, exponent) } else { 0.0 };
                         (diffuse * color * light.cosine + highlight * shine) * light.intensity
                     })
                 }
-                Effect::Mirror(_) | Effect::Through(_) | Effect::Refract { .. } | Effect::Split { .. } => Rgb::ZERO,
+                Effect::Mirror(_) | Effect::Through(_) | Effect::Refract(_) | Effect::Split(_) => Rgb::ZERO,
             };
         }
         sum
@@ -72,63 +88,141 @@ impl<'a> Point<'a> {
 
     /// Sum of a term over the lights that reach the point.
     fn over_lights(&self, counts: &mut Counts, term: impl Fn(&Arriving) -> Rgb) -> Rgb {
-        let mut sum = Rgb::ZERO;
         let start = self.surface.departure(self.surface.normal, self.travelled);
-        for lamp in &self.snapshot.lights.lamps {
-            let Some(light) = lamp.illuminate(start) else { continue };
-            let direction = light.to_light.normalize();
-            let cosine = self.surface.shading_normal.dot(direction);
-            if cosine <= 0.0 || cosine.is_nan() {
-                continue;
-            }
-            let visible = if self.snapshot.settings.shadows {
-                self.visibility(Ray { origin: start, direction: light.to_light }, light.distance, counts)
-            } else {
-                Rgb::ONE
+        let mut sum = Rgb::ZERO;
+        for (lamp, n) in self.snapshot.lights.lamps.iter().zip(0..) {
+            let mut one = |sample| {
+                let light = lamp.illuminate(start, sample)?;
+                self.arriving(start, &light, counts).map(|arriving| term(&arriving))
             };
-            if visible != Rgb::ZERO {
-                sum += term(&Arriving { direction, cosine, intensity: light.intensity * visible });
-            }
+            sum += match lamp.sampling() {
+                None => one(DVec2::ZERO).unwrap_or(Rgb::ZERO),
+                Some(sampling) => mean_over(sampling, self.key.child(n), one),
+            };
         }
         sum
     }
 
+    /// What of a light arrives at the point after shadows, if anything does.
+    fn arriving(&self, start: DVec3, light: &Illumination, counts: &mut Counts) -> Option<Arriving> {
+        let direction = light.to_light.normalize();
+        let cosine = self.surface.shading_normal.dot(direction);
+        if cosine <= 0.0 || cosine.is_nan() {
+            return None;
+        }
+        let visible = if light.shadows && self.snapshot.settings.shadows {
+            self.visibility(Ray { origin: start, direction: light.to_light }, light.distance, counts)
+        } else {
+            Rgb::ONE
+        };
+        (visible != Rgb::ZERO).then(|| Arriving { direction, cosine, intensity: light.intensity * visible })
+    }
+
     /// Share of a light that gets through to the start of `ray`, which ends at the light: every transparent surface in
-    /// between weakens it, the first opaque one ends it. The ray goes straight, even where a view ray would bend.
+    /// between weakens it, as do the bodies it goes through, and the first opaque surface ends it. The ray goes
+    /// straight, even where a view ray would bend.
     fn visibility(&self, mut ray: Ray, distance: f64, counts: &mut Counts) -> Rgb {
         let Snapshot { geometry, materials, .. } = self.snapshot;
         let mut cost = Cost::default();
         let mut visible = Rgb::ONE;
         let mut rest = short_of_the_light(&ray, distance);
-        if !materials.any_transparent {
+        if !materials.any_transparent && materials.media.is_empty() {
             counts.shadow += 1;
             if geometry.blocked(&ray, rest, self.accelerator, &mut cost) {
                 visible = Rgb::ZERO;
             }
-        } else {
-            let end = ray.at(distance);
-            let toward = ray.direction;
-            let length = toward.length();
-            while visible != Rgb::ZERO {
-                counts.shadow += 1;
-                let met = geometry.closest(&ray, rest, self.accelerator, &mut cost);
-                let Some(met) = met.filter(|met| met.t < rest) else { break };
-                visible *= passes(materials.at(met.object, met.surface.slot), &ray, &met.surface);
-                ray.origin = met.surface.departure(ray.direction, met.t * length);
-                if rest.is_finite() {
-                    // Toward the same end from the new start.
-                    ray.direction = end - ray.origin;
-                    rest = short_of_the_light(&ray, 1.0);
-                    // The step away from the surface may pass the light: turning back would go on for ever.
-                    if ray.direction.dot(toward) <= 0.0 {
-                        break;
-                    }
+            counts.add(cost);
+            return visible;
+        }
+        let end = ray.at(distance);
+        let toward = ray.direction;
+        let length = toward.length();
+        let mut interior = self.interior.clone();
+        while visible != Rgb::ZERO {
+            counts.shadow += 1;
+            let met = geometry.closest(&ray, rest, self.accelerator, &mut cost).filter(|met| met.t < rest);
+            if !materials.media.is_empty() {
+                let t = met.map_or(rest, |met| met.t);
+                visible *= interior::transmittance(interior.medium(materials), t * ray.direction.length());
+            }
+            let Some(met) = met else { break };
+            visible *= self.passes(&met, &ray, &mut interior);
+            ray.origin = met.surface.departure(ray.direction, met.t * length);
+            if rest.is_finite() {
+                // Toward the same end from the new start.
+                ray.direction = end - ray.origin;
+                rest = short_of_the_light(&ray, 1.0);
+                // The step away from the surface may pass the light: turning back would go on for ever.
+                if ray.direction.dot(toward) <= 0.0 {
+                    break;
                 }
             }
         }
         counts.add(cost);
         visible
     }
+
+    /// Share of the light that a surface lets through on a straight way; notes the bodies entered and left.
+    fn passes(&self, met: &Intersection, ray: &Ray, interior: &mut Interior) -> Rgb {
+        let materials = &self.snapshot.materials;
+        let cosine = met.surface.normal.dot(ray.direction) / ray.direction.length();
+        let entering = cosine < 0.0;
+        let mut eta = 1.0;
+        if materials.medium(met.object).is_some() {
+            let sides = interior.sides(met.object, entering, materials);
+            *interior = interior.across(met.object, entering);
+            let Some(Sides { before, after }) = sides else { return Rgb::ONE };
+            eta = straight_eta(before.index, after.index);
+        }
+        materials.at(met.object, met.surface.slot).effects.iter().fold(Rgb::ZERO, |sum, effect| {
+            sum + match *effect {
+                Effect::Through(strength) | Effect::Refract(strength) => strength,
+                Effect::Split(part) => part * (1.0 - optics::fresnel(cosine.abs(), eta)),
+                Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. } | Effect::Mirror(_) => Rgb::ZERO,
+            }
+        })
+    }
+}
+
+/// The ratio of indices for Fresnel's equations on a way that does not bend: the angle is taken to be the one on the
+/// thinner side, as it is there in truth on entry and exit alike, so that nothing is totally reflected.
+pub(super) fn straight_eta(before: f64, after: f64) -> f64 {
+    if before < after { before / after } else { after / before }
+}
+
+/// Samples in a block; a block is the least that is taken.
+const BLOCK: u32 = 16;
+
+/// Mean of a term over a lamp with an area.
+///
+/// Blocks of samples are taken until the standard error of their mean, from the spread of the blocks' means, is below
+/// the error asked for. If the first block is all dark, the lamp is taken to be hidden: what shows less than a sixteenth
+/// of it may be missed.
+fn mean_over(sampling: Sampling, key: Key, mut one: impl FnMut(DVec2) -> Option<Rgb>) -> Rgb {
+    let (mut sum, mut squares) = (Rgb::ZERO, Rgb::ZERO);
+    let mut blocks = 0;
+    let mut dark = true;
+    while blocks * BLOCK < sampling.most {
+        let len = BLOCK.min(sampling.most - blocks * BLOCK);
+        let mut block = Rgb::ZERO;
+        for n in 0..len {
+            if let Some(light) = one(key.sample(blocks * BLOCK + n)) {
+                block += light;
+                dark = false;
+            }
+        }
+        let mean = block / f64::from(len);
+        sum += mean;
+        squares += mean * mean;
+        blocks += 1;
+        let n = f64::from(blocks);
+        // Of the mean of n blocks; squared on both sides.
+        let variance = ((squares - sum * sum / n) / (n * (n - 1.0))).max_element();
+        if dark || blocks >= 3 && variance <= sampling.error * sampling.error {
+            break;
+        }
+    }
+    sum / f64::from(blocks)
 }
 
 /// A light at a point, as the terms need it.
@@ -150,19 +244,4 @@ fn short_of_the_light(ray: &Ray, distance: f64) -> f64 {
     let length = ray.direction.length();
     let reach = ray.origin.abs().max_element() + length * distance;
     distance - OFFSET_ULPS * f64::EPSILON * reach / length
-}
-
-/// Share of the light that a surface lets through on a straight way.
-fn passes(material: &Material, ray: &Ray, surface: &Surface) -> Rgb {
-    material.effects.iter().fold(Rgb::ZERO, |sum, effect| {
-        sum + match *effect {
-            Effect::Through(strength) | Effect::Refract { strength, .. } => strength,
-            Effect::Split { part, index } => {
-                // The way bends in truth: the angle outside is the same on entry and exit, so it decides both.
-                let cosine = (ray.direction.dot(surface.normal) / ray.direction.length()).abs();
-                part * (1.0 - optics::fresnel(cosine, 1.0 / index))
-            }
-            _ => Rgb::ZERO,
-        }
-    })
 }

@@ -1,6 +1,11 @@
 //! One pixel: the tree of rays that starts with it.
 
-use super::{Counts, optics, shade::Point};
+use super::{
+    Counts, Key,
+    interior::{self, Interior, Sides},
+    optics,
+    shade::{Point, straight_eta},
+};
 use crate::{
     accelerate::Accelerator,
     snapshot::{Effect, Snapshot},
@@ -23,10 +28,10 @@ pub fn pixel(snapshot: &Snapshot, x: u32, y: u32, accelerator: Accelerator, coun
     let settings = &snapshot.settings;
     let samples = samples(settings.antialias);
     let mut sum = Rgb::ZERO;
-    for (dx, dy) in samples {
-        let (x, y) = (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
+    for ((dx, dy), n) in samples.iter().zip(0..) {
+        let ray = snapshot.view.ray(f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy, settings.width, settings.height);
         counts.primary += 1;
-        sum += light_along(snapshot, snapshot.view.ray(x, y, settings.width, settings.height), accelerator, counts);
+        sum += light_along(snapshot, ray, Key::of_pixel(x, y, n), accelerator, counts);
     }
     sum / samples.len() as f64
 }
@@ -38,43 +43,70 @@ struct Pending {
     weight: Rgb,
     /// How many surfaces lie between it and the camera.
     depth: u32,
+    /// The clear bodies it goes through.
+    interior: Interior,
+    /// In nanometres; none for white light.
+    wavelength: Option<f64>,
+    key: Key,
 }
 
 /// The light that comes back along a ray.
 ///
 /// The tree of rays is walked with a stack of its own, the mirrored branch of a surface before the transmitted one, and
 /// every contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
-fn light_along(snapshot: &Snapshot, ray: Ray, accelerator: Accelerator, counts: &mut Counts) -> Rgb {
-    let settings = &snapshot.settings;
+fn light_along(snapshot: &Snapshot, ray: Ray, key: Key, accelerator: Accelerator, counts: &mut Counts) -> Rgb {
+    let Snapshot { settings, materials, .. } = snapshot;
     let mut sum = Rgb::ZERO;
-    let mut pending: SmallVec<[Pending; 16]> = SmallVec::new();
-    pending.push(Pending { ray, weight: Rgb::ONE, depth: 0 });
-    while let Some(Pending { ray, weight, depth }) = pending.pop() {
+    let mut pending: SmallVec<[Pending; 8]> = SmallVec::new();
+    let interior = snapshot.inside.clone();
+    pending.push(Pending { ray, weight: Rgb::ONE, depth: 0, interior, wavelength: None, key });
+    while let Some(Pending { ray, mut weight, depth, interior, wavelength, key }) = pending.pop() {
         let mut cost = Cost::default();
         let met = snapshot.geometry.closest(&ray, f64::INFINITY, accelerator, &mut cost);
         counts.add(cost);
+        if !materials.media.is_empty() {
+            let travelled = met.map_or(f64::INFINITY, |met| met.t);
+            weight *= interior::transmittance(interior.medium(materials), travelled);
+        }
         let Some(met) = met else {
             sum += weight * settings.background;
             continue;
         };
-        let point = Point::new(snapshot, accelerator, &ray, met);
+        let point = Point::new(snapshot, accelerator, &ray, met, &interior, key);
+        let sides = materials.medium(met.object).map(|_| interior.sides(met.object, point.entering, materials));
+        if sides == Some(None) {
+            // The surface lies inside a body that counts before its own: it is not there.
+            let ray = Ray { origin: point.surface.departure(ray.direction, met.t), direction: ray.direction };
+            let interior = interior.across(met.object, point.entering);
+            pending.push(Pending { ray, weight, depth, interior, wavelength, key });
+            continue;
+        }
         sum += weight * point.local(counts);
 
-        let branches = point.branches();
-        for Branch { kind, direction, share } in branches.into_iter().rev() {
-            let weight = weight * share;
+        let branches = point.branches(sides.flatten(), wavelength);
+        for (n, branch) in branches.into_iter().enumerate().rev() {
+            let weight = weight * branch.share;
             if depth >= settings.depth {
                 counts.too_deep += 1;
                 sum += weight * beyond_depth(settings.background);
             } else if weight.max_element() < settings.cutoff {
                 counts.cut += 1;
             } else {
-                match kind {
-                    Kind::Mirror => counts.mirror += 1,
-                    Kind::Transmitted => counts.transmitted += 1,
-                }
-                let origin = point.surface.departure(direction, point.travelled);
-                pending.push(Pending { ray: Ray { origin, direction }, weight, depth: depth + 1 });
+                let interior = match branch.kind {
+                    Kind::Mirror => {
+                        counts.mirror += 1;
+                        interior.clone()
+                    }
+                    Kind::Transmitted => {
+                        counts.transmitted += 1;
+                        if sides.is_some() { interior.across(met.object, point.entering) } else { interior.clone() }
+                    }
+                };
+                let origin = point.surface.departure(branch.direction, point.travelled);
+                let ray = Ray { origin, direction: branch.direction };
+                // Lights count from zero up, branches from the top down.
+                let (wavelength, key) = (branch.wavelength, key.child(u32::MAX - n as u32));
+                pending.push(Pending { ray, weight, depth: depth + 1, interior, wavelength, key });
             }
         }
     }
@@ -100,35 +132,48 @@ struct Branch {
     direction: DVec3,
     /// Share of its light that leaves toward the viewer; not zero.
     share: Rgb,
+    /// In nanometres; none for white light.
+    wavelength: Option<f64>,
 }
+
+type Branches = SmallVec<[Branch; 4]>;
 
 impl Point<'_> {
     /// The rays that go on from here, in the order in which they are traced.
-    fn branches(&self) -> SmallVec<[Branch; 3]> {
-        let mut branches = SmallVec::new();
-        let mut add = |kind, direction, share: Rgb| {
+    fn branches(&self, sides: Option<Sides<'_>>, wavelength: Option<f64>) -> Branches {
+        let mut branches = Branches::new();
+        let mut add = |kind, direction, share: Rgb, wavelength| {
             if share != Rgb::ZERO {
-                branches.push(Branch { kind, direction, share });
+                branches.push(Branch { kind, direction, share, wavelength });
             }
         };
         for effect in &self.material.effects {
             match *effect {
-                Effect::Mirror(share) => add(Kind::Mirror, self.mirrored(), share),
-                Effect::Through(share) => add(Kind::Transmitted, self.direction, share),
-                Effect::Refract { strength, index } => {
-                    if let Some(direction) = self.refracted(index) {
-                        add(Kind::Transmitted, direction, strength);
+                Effect::Mirror(share) => add(Kind::Mirror, self.mirrored(), share, wavelength),
+                Effect::Through(share) => add(Kind::Transmitted, self.direction, share, wavelength),
+                Effect::Refract(strength) => self.each_line(sides, wavelength, |eta, color, wavelength| {
+                    if let Some(direction) = self.refracted(eta) {
+                        add(Kind::Transmitted, direction, strength * color, wavelength);
                     }
-                }
-                Effect::Split { part, index } => {
+                }),
+                Effect::Split(part) => {
                     let cosine = -self.direction.dot(self.surface.shading_normal);
-                    let reflected = optics::fresnel(cosine, self.eta(index));
-                    match self.refracted(index).filter(|_| reflected < 1.0) {
-                        Some(direction) => {
-                            add(Kind::Mirror, self.mirrored(), part * reflected);
-                            add(Kind::Transmitted, direction, part * (1.0 - reflected));
+                    // White light is mirrored as one, by the index of its middle.
+                    let reflected = self.reflected(cosine, eta_of(sides, wavelength));
+                    let mut mirrored = part * reflected;
+                    let mut lines: SmallVec<[_; 1]> = SmallVec::new();
+                    self.each_line(sides, wavelength, |eta, color, wavelength| {
+                        let share = part * (1.0 - reflected) * color;
+                        match self.refracted(eta).filter(|_| reflected < 1.0) {
+                            Some(direction) => lines.push((direction, share, wavelength)),
+                            // Beyond the critical angle of this wavelength.
+                            None => mirrored += share,
                         }
-                        None => add(Kind::Mirror, self.mirrored(), part),
+                    });
+                    let mirrored = if lines.is_empty() { part } else { mirrored };
+                    add(Kind::Mirror, self.mirrored(), mirrored, wavelength);
+                    for (direction, share, wavelength) in lines {
+                        add(Kind::Transmitted, direction, share, wavelength);
                     }
                 }
                 Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. } => {}
@@ -137,9 +182,30 @@ impl Point<'_> {
         branches
     }
 
-    /// The index where the ray comes from over the one where it goes.
-    fn eta(&self, index: f64) -> f64 {
-        if self.entering { 1.0 / index } else { index }
+    /// Calls `each` with the ratio of indices, the colour and the wavelength of every line into which the surface splits
+    /// the ray: a single one, unless the ray is white and a medium disperses.
+    fn each_line(
+        &self,
+        sides: Option<Sides<'_>>,
+        wavelength: Option<f64>,
+        mut each: impl FnMut(f64, Rgb, Option<f64>),
+    ) {
+        let spectrum = sides.and_then(|sides| sides.after.spectrum.as_ref().or(sides.before.spectrum.as_ref()));
+        match spectrum {
+            Some(spectrum) if wavelength.is_none() && self.snapshot.settings.refraction => {
+                for (wavelength, color) in &spectrum.lines {
+                    each(eta_of(sides, Some(*wavelength)), *color, Some(*wavelength));
+                }
+            }
+            _ => each(eta_of(sides, wavelength), Rgb::ONE, wavelength),
+        }
+    }
+
+    /// Share of the light that is reflected.
+    fn reflected(&self, cosine: f64, eta: f64) -> f64 {
+        // A way that does not bend knows no critical angle.
+        let eta = if self.snapshot.settings.refraction { eta } else { straight_eta(eta, 1.0) };
+        optics::fresnel(cosine, eta)
     }
 
     /// The mirrored direction; at the true surface where the interpolated normal would send it below that.
@@ -153,8 +219,10 @@ impl Point<'_> {
     }
 
     /// The refracted direction, if any; at the true surface where the interpolated normal would keep it above that.
-    fn refracted(&self, index: f64) -> Option<DVec3> {
-        let eta = self.eta(index);
+    fn refracted(&self, eta: f64) -> Option<DVec3> {
+        if !self.snapshot.settings.refraction {
+            return Some(self.direction);
+        }
         let refracted = optics::refract(self.direction, self.surface.shading_normal, eta)?;
         if refracted.dot(self.surface.normal) < 0.0 {
             Some(refracted)
@@ -162,4 +230,9 @@ impl Point<'_> {
             optics::refract(self.direction, self.surface.normal, eta)
         }
     }
+}
+
+/// The index where the ray comes from over the one where it goes.
+fn eta_of(sides: Option<Sides<'_>>, wavelength: Option<f64>) -> f64 {
+    sides.map_or(1.0, |Sides { before, after }| before.index_at(wavelength) / after.index_at(wavelength))
 }

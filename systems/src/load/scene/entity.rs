@@ -47,7 +47,7 @@ pub(super) enum Role<'t> {
 impl Role<'_> {
     /// Why two cannot stand on one entity; nothing if they can.
     fn conflict(self, other: Self) -> Option<&'static str> {
-        use Kind::{Effect, Shape, Texture};
+        use Kind::{Effect, Filling, Shape, Texture};
         const REPLACED: [&str; 3] = ["Mirror", "Transmission", "Refraction"];
         match (self, other) {
             (Self::Component(Shape, _), Self::Component(Shape, _)) => Some("an entity has one shape at most"),
@@ -58,8 +58,8 @@ impl Role<'_> {
             {
                 Some("`Dielectric` takes the place of `Mirror`, `Transmission` and `Refraction`")
             }
-            (Self::Component(Effect | Texture, _), Self::Relation(Relation::MadeOf))
-            | (Self::Relation(Relation::MadeOf), Self::Component(Effect | Texture, _)) => {
+            (Self::Component(Effect | Filling | Texture, _), Self::Relation(Relation::MadeOf))
+            | (Self::Relation(Relation::MadeOf), Self::Component(Effect | Filling | Texture, _)) => {
                 Some("an entity has a material of its own or that of another, not both")
             }
             _ => None,

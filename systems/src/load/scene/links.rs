@@ -7,7 +7,11 @@ use super::{
 };
 use crate::registry::Kind;
 use glam::DAffine3;
-use snell_components::transform::is_invertible;
+use snell_components::{
+    describe::Describe,
+    material::{Dielectric, Dispersion, Refraction},
+    transform::is_invertible,
+};
 
 /// Most names of a circle that are told.
 const LONGEST_CIRCLE: usize = 8;
@@ -45,6 +49,7 @@ impl<'s> Links<'_, 's> {
     fn complete(mut self) -> Vec<Whole> {
         let mut wholes = self.take();
         self.check_materials(&wholes);
+        self.check_dispersion(&wholes);
         for (whole, entity) in wholes.iter_mut().zip(&self.layout.entities) {
             // Whoever has no parent in an included file stands where the file stands.
             let placement = self.layout.scopes.get(entity.scope).and_then(|scope| scope.placement);
@@ -86,7 +91,7 @@ impl<'s> Links<'_, 's> {
     /// Whether an entity has an effect or a texture.
     fn is_material(&self, whole: &Whole) -> bool {
         let mut parts = whole.parts.iter().filter_map(|at| part(self.stated, *at));
-        parts.any(|part| matches!(part.entry.kind, Kind::Effect | Kind::Texture))
+        parts.any(|part| matches!(part.entry.kind, Kind::Effect | Kind::Filling | Kind::Texture))
     }
 
     fn check_materials(&mut self, wholes: &[Whole]) {
@@ -100,6 +105,19 @@ impl<'s> Links<'_, 's> {
                 let message =
                     format!("{subject:?}: MadeOf: expected an entity with effects of a material: {name:?} has none");
                 self.report.add(link.place, message);
+            }
+        }
+    }
+
+    /// Checks that what disperses has an index to disperse.
+    fn check_dispersion(&mut self, wholes: &[Whole]) {
+        for ((entity, stated), whole) in self.layout.entities.iter().zip(self.stated).zip(wholes) {
+            let Some(dispersion) = stated.parts.iter().find(|part| part.tag == Dispersion::TAG) else { continue };
+            let mut parts = whole.parts.iter().filter_map(|at| part(self.stated, *at));
+            if !whole.broken && !parts.any(|part| [Dielectric::TAG, Refraction::TAG].contains(&part.tag)) {
+                let message =
+                    format!("{:?}: Dispersion: expected `Refraction` or `Dielectric` beside it", entity.written);
+                self.report.add(dispersion.written.place, message);
             }
         }
     }

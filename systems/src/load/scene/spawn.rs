@@ -40,11 +40,11 @@ pub(super) fn prepare(
 ) -> Vec<Ready> {
     let mut ready = vec![];
     for (number, (entity, whole)) in layout.entities.into_iter().zip(wholes).enumerate() {
-        let (mut components, mut model, mut has_material) = (vec![], None, whole.made_of.is_some());
+        let (mut components, mut model, mut has_surface) = (vec![], None, whole.made_of.is_some());
         for at in whole.parts {
             let Some(part) = part(&stated, at) else { continue };
             model = model.or(part.model);
-            has_material |= matches!(part.entry.kind, Kind::Effect | Kind::Texture);
+            has_surface |= matches!(part.entry.kind, Kind::Effect | Kind::Texture);
             let own = at.0 == number;
             if own {
                 components.extend(stated.get_mut(at.0).and_then(|stated| stated.parts.get_mut(at.1)?.insert.take()));
@@ -59,7 +59,7 @@ pub(super) fn prepare(
             components,
             made_of: whole.made_of,
             parent: whole.parent,
-            model: model.filter(|_| !has_material),
+            model: model.filter(|_| !has_surface),
         });
     }
     ready
@@ -105,14 +105,7 @@ fn spawn_materials(world: &mut World, model: usize, assets: &Assets) -> Vec<Enti
 
 fn spawn_material(world: &mut World, name: String, material: &ModelMaterial) -> Entity {
     let mut entity = world.spawn(Name::new(name));
-    entity.insert(Color(material.color));
-    // What is zero would do nothing, and an absent effect costs nothing.
-    if material.ambient != Rgb::ZERO {
-        entity.insert(Ambient(material.ambient));
-    }
-    if material.diffuse != Rgb::ZERO {
-        entity.insert(Diffuse(material.diffuse));
-    }
+    entity.insert((Color(material.color), Ambient(material.ambient), Diffuse(material.diffuse)));
     if let Some(highlight) = material.highlight {
         entity.insert(highlight);
     }

@@ -1,19 +1,15 @@
 //! Scenes, bad and good.
 
 use super::*;
-use crate::registry::Kind;
+use crate::pipeline::Renderer;
 use bevy_ecs::system::RunSystemOnce;
 use glam::DVec3;
 use snell_components::{
     camera::Camera,
     color::linear_from_srgb,
-    light::{AmbientLight, DirectionalLight, PointLight},
-    material::{
-        Ambient, Color, Dielectric, Diffuse, Highlight, MadeOf, MaterialSlots, Mirror, Opacity, Refraction,
-        Transmission,
-    },
+    material::{Ambient, Color, Dielectric, Diffuse, MadeOf, MaterialSlots, Mirror},
     name::Name,
-    shape::{Cuboid, Mesh, Plane, Sphere, Triangle},
+    shape::{Cuboid, Mesh, Sphere, Triangle},
     texture::{Checker, ImageTexture},
     transform::{Step, Transform},
 };
@@ -21,28 +17,7 @@ use std::{collections::BTreeMap, fs, sync::Arc};
 
 /// A world in which all built-in components are known.
 fn world() -> World {
-    let mut registry = Registry::default();
-    registry.register::<Sphere>(Kind::Shape);
-    registry.register::<Plane>(Kind::Shape);
-    registry.register::<Cuboid>(Kind::Shape);
-    registry.register::<Triangle>(Kind::Shape);
-    registry.register::<Mesh>(Kind::Shape);
-    registry.register::<AmbientLight>(Kind::Light);
-    registry.register::<PointLight>(Kind::Light);
-    registry.register::<DirectionalLight>(Kind::Light);
-    registry.register::<ImageTexture>(Kind::Texture);
-    registry.register::<Checker>(Kind::Texture);
-    registry.register::<Color>(Kind::Effect);
-    registry.register::<Ambient>(Kind::Effect);
-    registry.register::<Diffuse>(Kind::Effect);
-    registry.register::<Highlight>(Kind::Effect);
-    registry.register::<Mirror>(Kind::Effect);
-    registry.register::<Transmission>(Kind::Effect);
-    registry.register::<Refraction>(Kind::Effect);
-    registry.register::<Dielectric>(Kind::Effect);
-    registry.register::<Opacity>(Kind::Effect);
-    registry.register::<Camera>(Kind::Camera);
-    registry.register::<Transform>(Kind::Placement);
+    let registry = Renderer::new().world.remove_resource::<Registry>().expect("a registry");
     let mut world = World::new();
     world.insert_resource(registry);
     world
@@ -222,7 +197,7 @@ const BAD_ENTITIES: &[Bad] = &[
     (
         r#""a": [Torus],"#,
         &[
-            r#"2:7: "a": unknown component `Torus`; known are `Ambient`, `AmbientLight`, `Box`, `Camera`, `Checker`, `Color`, `Dielectric`, `Diffuse`, `DirectionalLight`, `Highlight`, `ImageTexture`, `Mesh`, `Mirror`, `Opacity`, `Plane`, `PointLight`, `Refraction`, `Sphere`, `Transform`, `Transmission`, `Triangle`, `Like`, `MadeOf` and `Parent`"#,
+            r#"2:7: "a": unknown component `Torus`; known are `Absorption`, `Ambient`, `AmbientLight`, `Box`, `Camera`, `Checker`, `Color`, `ConeLight`, `Dielectric`, `Diffuse`, `DirectionalLight`, `DiskLight`, `Dispersion`, `Highlight`, `ImageTexture`, `MediumRank`, `Mesh`, `Mirror`, `Opacity`, `Plane`, `PointLight`, `Refraction`, `Sphere`, `Transform`, `Transmission`, `Triangle`, `Like`, `MadeOf` and `Parent`"#,
         ],
     ),
     (r#""a": [Sphere],"#, &[r#"2:7: "a": Sphere: missing field `radius` (radius, object units)"#]),
@@ -257,6 +232,16 @@ const BAD_ENTITIES: &[Bad] = &[
     (
         r#""a": [MadeOf("b"), Diffuse(1)], "b": [Diffuse(1)],"#,
         &[r#"2:20: "a": `Diffuse` beside `MadeOf`: an entity has a material of its own or that of another, not both"#],
+    ),
+    (
+        r#""a": [MadeOf("b"), Absorption(1)], "b": [Diffuse(1)],"#,
+        &[
+            r#"2:20: "a": `Absorption` beside `MadeOf`: an entity has a material of its own or that of another, not both"#,
+        ],
+    ),
+    (
+        r#""a": [Diffuse(1), Dispersion],"#,
+        &[r#"2:19: "a": Dispersion: expected `Refraction` or `Dielectric` beside it"#],
     ),
     (r#""a": [Highlight(5)],"#, &[r#"2:7: "a": Highlight: expected its fields by name, as `strength: …`"#]),
     (
@@ -814,6 +799,7 @@ fn models_bring_their_materials_and_are_read_once() {
         "plain": [Mesh(model: "m.obj")],
         "again": [Mesh(model: "./m.obj", shading: Flat)],
         "like": [Like("plain")],
+        "filled": [Mesh(model: "m.obj"), Refraction(1.3), Absorption(0.5), Dispersion, MediumRank(1)],
         "own": [Mesh(model: "m.obj"), Diffuse(1)],
         "painted": [Mesh(model: "m.obj"), MadeOf("paint")],
         "paint": [Diffuse(1), ImageTexture("m.png")],
@@ -823,7 +809,7 @@ fn models_bring_their_materials_and_are_read_once() {
     read_scene_text(&mut world, text, &folder.path().join("s.ron")).unwrap_or_else(|faults| panic!("{faults}"));
     let names = entities(&mut world);
     let slots = MaterialSlots(vec![names["m.obj#red"], names["m.obj#glass"]]);
-    for name in ["plain", "again", "like"] {
+    for name in ["plain", "again", "like", "filled"] {
         assert_eq!(get::<MaterialSlots>(&mut world, name), slots);
     }
     assert!(!has::<MaterialSlots>(&mut world, "own") && !has::<MaterialSlots>(&mut world, "painted"));

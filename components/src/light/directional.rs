@@ -1,0 +1,56 @@
+//! `DirectionalLight(direction: (-1, -2, -1))`: a light so far away that its rays are parallel.
+
+use super::{Illumination, Lamp, Light};
+use crate::{
+    color::Rgb,
+    describe::{Describe, FieldVisitor, Spec, Value},
+};
+use bevy_ecs::prelude::*;
+use glam::{DAffine3, DVec2, DVec3};
+
+/// A light so far away that its rays are parallel.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct DirectionalLight {
+    /// The way the light goes, object space; any length but zero.
+    pub direction: DVec3,
+    /// Linear RGB.
+    pub intensity: Rgb,
+    /// Whether things cast shadows in this light.
+    pub shadows: bool,
+}
+
+impl Default for DirectionalLight {
+    fn default() -> Self {
+        Self { direction: DVec3::NEG_Y, intensity: Rgb::ONE, shadows: true }
+    }
+}
+
+impl Describe for DirectionalLight {
+    const TAG: &'static str = "DirectionalLight";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        let about = "the way the light goes, object space";
+        fields.field("direction", Value::Vector(&mut self.direction), Spec::any(about).required().nonzero());
+        fields.field("intensity", Value::Color(&mut self.intensity), Spec::not_negative("linear RGB"));
+        fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows in it"));
+    }
+}
+
+impl Light for DirectionalLight {
+    type Packed = Self;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Self {
+        Self { direction: world_from_object.transform_vector3(self.direction).normalize(), ..self.clone() }
+    }
+}
+
+impl Lamp for DirectionalLight {
+    fn illuminate(&self, _: DVec3, _: DVec2) -> Option<Illumination> {
+        Some(Illumination {
+            to_light: -self.direction,
+            distance: f64::INFINITY,
+            intensity: self.intensity,
+            shadows: self.shadows,
+        })
+    }
+}

@@ -1,0 +1,56 @@
+//! `PointLight(position: (0, 5, 0))`: a light that shines from one point in all directions.
+
+use super::{Illumination, Lamp, Light};
+use crate::{
+    color::Rgb,
+    describe::{Describe, FieldVisitor, Spec, Value},
+};
+use bevy_ecs::prelude::*;
+use glam::{DAffine3, DVec2, DVec3};
+
+/// A light that shines from one point in all directions.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct PointLight {
+    /// Object space.
+    pub position: DVec3,
+    /// Linear RGB.
+    pub intensity: Rgb,
+    /// Whether things cast shadows in this light.
+    pub shadows: bool,
+}
+
+impl Default for PointLight {
+    fn default() -> Self {
+        Self { position: DVec3::ZERO, intensity: Rgb::ONE, shadows: true }
+    }
+}
+
+impl Describe for PointLight {
+    const TAG: &'static str = "PointLight";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        fields.field("position", Value::Vector(&mut self.position), Spec::any("object space"));
+        fields.field("intensity", Value::Color(&mut self.intensity), Spec::not_negative("linear RGB"));
+        fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows in it"));
+    }
+}
+
+impl Light for PointLight {
+    type Packed = Self;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Self {
+        Self { position: world_from_object.transform_point3(self.position), ..self.clone() }
+    }
+}
+
+impl Lamp for PointLight {
+    fn illuminate(&self, point: DVec3, _: DVec2) -> Option<Illumination> {
+        let to_light = self.position - point;
+        (to_light != DVec3::ZERO).then_some(Illumination {
+            to_light,
+            distance: 1.0,
+            intensity: self.intensity,
+            shadows: self.shadows,
+        })
+    }
+}

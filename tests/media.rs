@@ -1,0 +1,163 @@
+//! Clear bodies and what fills them: closed forms, worked out beside each test.
+
+use snell::components::math;
+use snell::prelude::*;
+use snell::systems::{
+    render::{Interior, pixel},
+    snapshot::View,
+};
+
+fn scene(settings: Settings, build: impl FnOnce(&mut World)) -> Snapshot {
+    let mut renderer = Renderer::new();
+    *renderer.settings() = Settings { width: 1, height: 1, background: Rgb::ONE, cutoff: 0.0, ..settings };
+    renderer.world.spawn(Camera::default());
+    build(&mut renderer.world);
+    (*renderer.snapshot().expect("a snapshot")).clone()
+}
+
+/// The light that comes to a point from a direction, and the rays that it took.
+fn traced(snapshot: &Snapshot, eye: DVec3, toward: DVec3) -> (Rgb, snell::Counts) {
+    let view = View { eye, right: DVec3::ZERO, up: DVec3::ZERO, forward: toward };
+    let inside = Interior::around(eye, &snapshot.geometry, &snapshot.materials);
+    let mut counts = snell::Counts::default();
+    let light = pixel(&Snapshot { view, inside, ..snapshot.clone() }, 0, 0, Accelerator::Tree, &mut counts);
+    (light, counts)
+}
+
+fn seen(snapshot: &Snapshot, eye: DVec3, toward: DVec3) -> Rgb {
+    traced(snapshot, eye, toward).0
+}
+
+#[track_caller]
+fn assert_near(found: Rgb, expected: Rgb) {
+    assert!((found - expected).abs().max_element() <= 1e-12, "{found}, expected {expected}");
+}
+
+fn left(coefficient: Rgb, length: f64) -> Rgb {
+    Rgb::from_array(coefficient.to_array().map(|coefficient| math::exp(-coefficient * length)))
+}
+
+/// A ball about the origin that lets all light through and bends it.
+fn ball(radius: f64, index: f64) -> (Sphere, Transmission, Refraction) {
+    (Sphere { radius }, Transmission(Rgb::ONE), Refraction { index })
+}
+
+const TINT: Rgb = Rgb::new(0.0, 0.3, 2.0);
+
+#[test]
+fn what_is_left_after_a_body_is_the_exponential_of_the_way() {
+    for length in [0.25, 1.0, 3.0] {
+        let plate = Cuboid { size: DVec3::new(9.0, 9.0, length) };
+        let shapes: [&dyn Fn(&mut World) -> Entity; 2] =
+            [&|world| world.spawn(plate.clone()).id(), &|world| world.spawn(Sphere { radius: 0.5 * length }).id()];
+        for shape in shapes {
+            let snapshot = scene(Settings::default(), |world| {
+                let body = shape(world);
+                world.entity_mut(body).insert((Transmission(Rgb::ONE), Absorption(TINT)));
+            });
+            let found = seen(&snapshot, DVec3::Z * 5.0, DVec3::NEG_Z);
+            assert_near(found, left(TINT, length));
+            assert_eq!(found.x, 1.0, "a coefficient of zero");
+        }
+    }
+}
+
+#[test]
+fn no_light_comes_from_infinitely_far_through_what_absorbs() {
+    // From inside a half-space without end.
+    let snapshot = scene(Settings::default(), |world| {
+        world.spawn((Plane {}, Transmission(Rgb::ONE), Absorption(TINT)));
+    });
+    assert_eq!(seen(&snapshot, DVec3::NEG_Y, DVec3::NEG_Y), Rgb::X);
+    assert_near(seen(&snapshot, DVec3::NEG_Y, DVec3::Y), left(TINT, 1.0));
+}
+
+/// Water in glass: on the axis of both.
+fn nested() -> Snapshot {
+    scene(Settings::default(), |world| {
+        world.spawn((ball(2.0, 1.5), Absorption(TINT * 0.5)));
+        world.spawn((ball(1.0, 1.33), Absorption(TINT)));
+    })
+}
+
+#[test]
+fn a_ray_on_the_axis_is_absorbed_by_each_medium_it_is_in() {
+    let snapshot = nested();
+    let (glass, water) = (left(TINT * 0.5, 1.0), left(TINT, 2.0));
+    assert_near(seen(&snapshot, DVec3::Z * 5.0, DVec3::NEG_Z), glass * water * glass);
+    assert_near(seen(&snapshot, DVec3::Z * 1.5, DVec3::NEG_Z), left(TINT * 0.5, 0.5) * water * glass);
+    assert_near(seen(&snapshot, DVec3::ZERO, DVec3::NEG_Z), left(TINT, 1.0) * glass);
+}
+
+#[test]
+fn a_surface_between_two_media_mirrors_by_the_indices_of_both() {
+    // As deep as the way through: what is mirrored twice is too deep, what is mirrored once sees the dark.
+    let mut snapshot = scene(Settings { depth: 4, ..Settings::default() }, |world| {
+        world.spawn((Sphere { radius: 2.0 }, Dielectric { index: 1.5 }, Absorption(TINT * 0.5)));
+        world.spawn((Sphere { radius: 1.0 }, Dielectric { index: 1.33 }, Absorption(TINT)));
+        world.spawn((Cuboid { size: DVec3::ONE }, Transform::at(DVec3::Z * -5.0), Ambient(Rgb::ONE)));
+        world.spawn(AmbientLight::default());
+    });
+    snapshot.settings.background = Rgb::ZERO;
+    let passes = |a: f64, b: f64| 1.0 - ((a - b) / (a + b)).powi(2);
+    let through = (passes(1.0, 1.5) * passes(1.5, 1.33)).powi(2);
+    let expected = left(TINT * 0.5, 2.0) * left(TINT, 2.0) * through;
+    assert_near(seen(&snapshot, DVec3::Z * 5.0, DVec3::NEG_Z), expected);
+}
+
+#[test]
+fn the_body_of_higher_rank_counts_where_two_overlap_whichever_is_met_first() {
+    let [a, b] = [Rgb::splat(0.5), Rgb::splat(2.0)];
+    for (rank, in_a, in_b) in [(-1.0, 3.0, 1.0), (1.0, 2.0, 2.0)] {
+        let snapshot = scene(Settings::default(), |world| {
+            let size = DVec3::new(9.0, 9.0, 3.0);
+            let body = (Cuboid { size }, Transmission(Rgb::ONE), Refraction { index: 1.5 }, Absorption(a));
+            world.spawn(body);
+            let size = DVec3::new(9.0, 9.0, 2.0);
+            let body = (Cuboid { size }, Transmission(Rgb::ONE), Refraction { index: 1.2 }, Absorption(b));
+            world.spawn((body, MediumRank(rank), Transform::at(DVec3::Z * 1.5)));
+        });
+        let expected = left(a, in_a) * left(b, in_b);
+        assert_near(seen(&snapshot, DVec3::Z * 9.0, DVec3::NEG_Z), expected);
+        assert_near(seen(&snapshot, DVec3::Z * -9.0, DVec3::Z), expected);
+    }
+}
+
+#[test]
+fn a_body_as_dense_as_what_is_around_it_is_not_seen() {
+    let snapshot = scene(Settings::default(), |world| {
+        world.spawn((Sphere { radius: 1.0 }, Dielectric { index: 1.0 }));
+    });
+    let (light, counts) = traced(&snapshot, DVec3::new(0.3, 0.4, 5.0), DVec3::NEG_Z);
+    assert_eq!((light, counts.mirror), (Rgb::ONE, 0));
+}
+
+#[test]
+fn a_dispersing_body_loses_no_light_and_fans_it_out() {
+    let prism = |world: &mut World| {
+        let turned = Transform::new([Step::RotateX(30.0), Step::Translate(DVec3::Y * 0.1)]);
+        let glass = (Transmission(Rgb::ONE), Refraction { index: 1.6 }, Dispersion { abbe: 20.0, wavelengths: 8 });
+        world.spawn((Plane {}, turned, glass));
+    };
+    let snapshot = scene(Settings::default(), prism);
+    let (light, counts) = traced(&snapshot, DVec3::Y * 5.0, DVec3::NEG_Y);
+    assert_near(light, Rgb::ONE);
+    assert_eq!(counts.transmitted, 8);
+    let straight = scene(Settings { refraction: false, ..Settings::default() }, prism);
+    assert_eq!(traced(&straight, DVec3::Y * 5.0, DVec3::NEG_Y).1.transmitted, 1);
+}
+
+#[test]
+fn without_refraction_light_goes_straight() {
+    let behind = |refraction| {
+        let snapshot = scene(Settings { refraction, ..Settings::default() }, |world| {
+            world.spawn(ball(1.0, 1.5));
+            world.spawn(AmbientLight::default());
+            let spot = (Sphere { radius: 0.01 }, Transform::at(DVec3::new(0.5, 0.0, -5.0)));
+            world.spawn((spot, Color(Rgb::X), Ambient(Rgb::ONE)));
+        });
+        seen(&snapshot, DVec3::new(0.5, 0.0, 5.0), DVec3::NEG_Z)
+    };
+    assert_eq!(behind(false), Rgb::X);
+    assert_eq!(behind(true), Rgb::ONE);
+}
