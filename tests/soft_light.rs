@@ -47,10 +47,10 @@ fn a_disk_without_radius_is_a_point_and_from_behind_dark() {
     for x in [0.0, 0.7, 3.0] {
         let point = PointLight { position: DVec3::Y * 2.0, ..PointLight::default() };
         let expected = on_the_ground(x, put(point));
-        assert_eq!(on_the_ground(x, |world| drop(world.spawn(disk(0.0)))), expected);
+        assert_eq!(on_the_ground(x, put(disk(0.0))), expected);
         for direction in [DVec3::Y, DVec3::X] {
             let light = DiskLight { direction, position: DVec3::new(5.0, 2.0, 0.0), ..disk(1.0) };
-            assert_eq!(on_the_ground(x, |world| drop(world.spawn(light))), 0.0);
+            assert_eq!(on_the_ground(x, put(light)), 0.0);
         }
     }
 }
@@ -91,13 +91,13 @@ fn the_shadow_of_a_ball_darkens_as_it_lets_less_light_through() {
     assert!(light.is_sorted_by(|a, b| a > b), "{light:?}");
 }
 
-/// The exponent of the error of the mean of a function, over many keys, in the count of samples.
-fn slope(error: impl Fn(Key, u32) -> f64) -> f64 {
+/// By how much the error of a mean, over many keys, falls from 16 samples to 64 times as many.
+fn fall(error: impl Fn(Key, u32) -> f64) -> f64 {
     let rms = |n| {
         let squares = (0..400).map(|i| error(Key::of_pixel(i, 1, 0), n)).map(|error| error * error);
         (squares.sum::<f64>() / 400.0).sqrt()
     };
-    (rms(1024) / rms(16)).log2() / 6.0
+    rms(1024) / rms(16)
 }
 
 fn mean(key: Key, n: u32, f: impl Fn(DVec2) -> f64) -> f64 {
@@ -107,13 +107,14 @@ fn mean(key: Key, n: u32, f: impl Fn(DVec2) -> f64) -> f64 {
 #[test]
 fn the_error_falls_as_fast_as_stratification_lets_it() {
     // A slanted edge through the middle of the square halves it.
-    let edge = slope(|key, n| {
+    let edge = fall(|key, n| {
         let (sin, cos) = math::sin_cos_degrees(360.0 * key.child(9).sample(0).x);
         mean(key, n, |p| f64::from((p.x - 0.5) * cos + (p.y - 0.5) * sin > 0.0)) - 0.5
     });
-    assert!((edge + 0.75).abs() < 0.08, "{edge}");
-    let smooth = slope(|key, n| mean(key, n, |p| p.x * p.x * p.y) - 1.0 / 6.0);
-    assert!(smooth < -1.0, "{smooth}");
+    let slope = |exponent| math::pow(64.0, exponent);
+    assert!(edge > slope(-0.83) && edge < slope(-0.67), "{edge}");
+    let smooth = fall(|key, n| mean(key, n, |p| p.x * p.x * p.y) - 1.0 / 6.0);
+    assert!(smooth < slope(-1.0), "{smooth}");
 }
 
 #[test]
@@ -127,7 +128,7 @@ fn the_error_asked_for_is_kept_in_the_penumbra() {
     };
     for error in [0.02, 0.01] {
         let places = (0..100).map(|i| -0.48 + 0.96 * f64::from(i) / 99.0);
-        let squares: Vec<f64> = places.map(|x| (at(x, error, 1 << 16) - at(x, 0.0, 4096)).powi(2)).collect();
+        let squares: Vec<f64> = places.map(|x| at(x, error, 1 << 16) - at(x, 0.0, 4096)).map(|d| d * d).collect();
         let rms = (squares.iter().sum::<f64>() / squares.len() as f64).sqrt();
         assert!(rms <= 2.0 * error, "asked for {error}, found {rms}");
     }

@@ -110,7 +110,7 @@ impl Describe for Highlight {
 /// Bends what [`Transmission`] lets through by Snell's law; nothing passes beyond the critical angle.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Refraction {
-    /// Index inside the body; outside it is 1.
+    /// Index inside the body; where no body is it is 1.
     pub index: f64,
 }
 
@@ -135,7 +135,7 @@ impl Describe for Refraction {
 /// Takes the place of [`Mirror`], [`Transmission`] and [`Refraction`].
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Dielectric {
-    /// Index inside the body; outside it is 1.
+    /// Index inside the body; where no body is it is 1.
     pub index: f64,
 }
 
