@@ -136,7 +136,7 @@ fn a_failed_render_leaves_the_last_picture_as_it_was() {
     assert_eq!(fs::read_dir(desk.0.path()).expect("a folder").count(), 2);
 }
 
-/// Ctrl-C as soon as the program listens to it; where that can be seen.
+/// Ctrl-C once the program listens to it and has worked since; where that can be seen.
 #[cfg(target_os = "linux")]
 #[test]
 fn an_interrupted_render_keeps_what_was_drawn() {
@@ -152,7 +152,18 @@ fn an_interrupted_render_keeps_what_was_drawn() {
         // Bit 1 of the mask is signal 2, SIGINT. A program that has ended catches nothing any more.
         status.contains("State:\tZ") || u64::from_str_radix(caught.trim(), 16).is_ok_and(|mask| mask & 2 != 0)
     };
+    // Processor time in ticks: user and system, the 14th and 15th field of the line.
+    let stat = format!("/proc/{}/stat", child.id());
+    let worked = || {
+        let stat = fs::read_to_string(&stat).unwrap_or_default();
+        stat.split(' ').skip(13).take(2).filter_map(|ticks| ticks.parse::<u64>().ok()).sum::<u64>()
+    };
     while !listens() {
+        thread::sleep(Duration::from_millis(5));
+    }
+    // A few rows are drawn within a tick; the whole takes hundreds.
+    let before = worked();
+    while worked() < before + 10 && !fs::read_to_string(&status).unwrap_or_default().contains("State:\tZ") {
         thread::sleep(Duration::from_millis(5));
     }
     let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill runs");
