@@ -938,3 +938,19 @@ fn an_ellipsoid_has_its_outline_and_its_normals() {
     let found = seen(&snapshot, DVec3::new(1.8, 9.0, 0.0), DVec3::NEG_Y);
     assert_near(found, Rgb::splat(0.8 / (0.04f64 + 0.64).sqrt()));
 }
+
+#[test]
+fn a_normal_that_is_turned_away_from_the_ray_bends_as_the_true_surface_does() {
+    // Straight on glass whose interpolated normal faces away, as at the silhouette of a smoothed mesh: 4 % of the sky
+    // behind the viewer, 96 % of what lies behind.
+    let normals = vec![DVec3::new(1.0, 0.0, -0.2).normalize(); 3];
+    let [a, b, c] = [DVec3::new(-1.0, -1.0, 0.0), DVec3::new(3.0, -1.0, 0.0), DVec3::new(-1.0, 3.0, 0.0)];
+    let glow_behind = Rgb::new(0.9, 0.1, 0.2);
+    let glass = scene(|world| {
+        world.spawn(AmbientLight::default());
+        world.spawn((Triangle { a, b, c, normals, ..Triangle::default() }, Dielectric { index: 1.5 }));
+        let facing = Transform::new([Step::RotateX(90.0), Step::Translate(DVec3::NEG_Z)]);
+        world.spawn((Plane {}, facing, glow(glow_behind)));
+    });
+    assert_near(seen(&glass, DVec3::Z, DVec3::NEG_Z), SKY * 0.04 + glow_behind * 0.96);
+}

@@ -12,7 +12,12 @@ use crate::{
 };
 use glam::DVec3;
 use smallvec::SmallVec;
-use snell_components::{color::Rgb, primitive::Cost, settings::Antialias, space::Ray};
+use snell_components::{
+    color::Rgb,
+    primitive::{Cost, Surface},
+    settings::Antialias,
+    space::Ray,
+};
 
 /// Where rays pass through a pixel, from its centre, in pixels.
 fn samples(antialias: Antialias) -> &'static [(f64, f64)] {
@@ -157,7 +162,7 @@ impl Point<'_> {
                     }
                 }),
                 Effect::Split(part) => {
-                    let cosine = -self.direction.dot(self.surface.shading_normal);
+                    let cosine = -self.direction.dot(self.bending_normal());
                     // White light is mirrored as one, by the index of its middle.
                     let reflected = self.reflected(cosine, eta_of(sides, wavelength));
                     let mut mirrored = part * reflected;
@@ -208,9 +213,16 @@ impl Point<'_> {
         optics::fresnel(cosine, eta)
     }
 
+    /// The normal by which rays are mirrored and bent: the interpolated one, unless that faces away from the ray, as it
+    /// may at the silhouette of a smoothed mesh.
+    fn bending_normal(&self) -> DVec3 {
+        let Surface { normal, shading_normal, .. } = self.surface;
+        if shading_normal.dot(self.direction) < 0.0 { shading_normal } else { normal }
+    }
+
     /// The mirrored direction; at the true surface where the interpolated normal would send it below that.
     fn mirrored(&self) -> DVec3 {
-        let mirrored = optics::reflect(self.direction, self.surface.shading_normal);
+        let mirrored = optics::reflect(self.direction, self.bending_normal());
         if mirrored.dot(self.surface.normal) > 0.0 {
             mirrored
         } else {
@@ -223,7 +235,7 @@ impl Point<'_> {
         if !self.snapshot.settings.refraction {
             return Some(self.direction);
         }
-        let refracted = optics::refract(self.direction, self.surface.shading_normal, eta)?;
+        let refracted = optics::refract(self.direction, self.bending_normal(), eta)?;
         if refracted.dot(self.surface.normal) < 0.0 {
             Some(refracted)
         } else {
