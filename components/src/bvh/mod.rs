@@ -159,12 +159,6 @@ impl Bvh {
             .filter(|bounds| bounds.min.x <= bounds.max.x)
     }
 
-    /// Count of nodes.
-    #[must_use]
-    pub fn node_count(&self) -> usize {
-        self.nodes.len()
-    }
-
     /// Bytes the tree occupies.
     #[must_use]
     pub fn bytes(&self) -> usize {

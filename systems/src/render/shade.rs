@@ -9,6 +9,7 @@ use crate::{
     accelerate::{Accelerator, Intersection},
     snapshot::{Effect, Material, Snapshot},
 };
+use core::cell::LazyCell;
 use glam::{DVec2, DVec3};
 use snell_components::{
     color::Rgb,
@@ -59,14 +60,16 @@ impl<'a> Point<'a> {
     /// Sum of the ambient, diffuse and highlight terms.
     pub(super) fn local(&self, counts: &mut Counts) -> Rgb {
         let mut sum = Rgb::ZERO;
+        // Looked up once, and only if a term needs it.
+        let color = LazyCell::new(|| self.color());
         for effect in &self.material.effects {
             sum += match *effect {
-                Effect::Ambient(strength) => strength * self.color() * self.snapshot.lights.ambient,
+                Effect::Ambient(strength) => strength * *color * self.snapshot.lights.ambient,
                 Effect::Diffuse(strength) => {
-                    strength * self.color() * self.over_lights(counts, |light| light.intensity * light.cosine)
+                    strength * *color * self.over_lights(counts, |light| light.intensity * light.cosine)
                 }
                 Effect::Glossy { diffuse, highlight, exponent } => {
-                    let color = self.color();
+                    let color = *color;
                     self.over_lights(counts, |light| {
                         // Where the mirrored light points away from the viewer there is no highlight, whatever the
                         // exponent.
@@ -136,14 +139,14 @@ impl<'a> Point<'a> {
         }
         let end = ray.at(distance);
         let toward = ray.direction;
-        let length = toward.length();
         let mut interior = self.interior.clone();
         while visible != Rgb::ZERO {
             counts.shadow += 1;
             let met = geometry.closest(&ray, rest, self.accelerator, &mut cost).filter(|met| met.t < rest);
+            let length = ray.direction.length();
             if !materials.media.is_empty() {
                 let t = met.map_or(rest, |met| met.t);
-                visible *= interior::transmittance(interior.medium(materials), t * ray.direction.length());
+                visible *= interior::transmittance(interior.medium(materials), t * length);
             }
             let Some(met) = met else { break };
             visible *= self.passes(&met, &ray, &mut interior);
