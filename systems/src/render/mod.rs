@@ -5,6 +5,7 @@
 
 mod counts;
 mod interior;
+mod observe;
 mod optics;
 mod picture;
 mod sampler;
@@ -14,8 +15,9 @@ mod trace;
 
 pub use counts::Counts;
 pub use interior::Interior;
+pub use observe::{Added, Dropped, Forward, Look, Observer, Traced, Way};
 pub use optics::{fresnel, reflect, refract};
 pub use picture::{Picture, Region};
 pub use sampler::Key;
 pub use tile::{Frame, OnTile, Options, Progress, Stop, Tile, render};
-pub use trace::pixel;
+pub use trace::{pixel, pixel_observed};

@@ -3,6 +3,7 @@
 use super::{
     Counts, Key,
     interior::{self, Interior, Sides},
+    observe::{Look, Observer},
     optics,
 };
 use crate::{
@@ -58,29 +59,32 @@ impl<'a> Point<'a> {
     }
 
     /// Sum of the ambient, diffuse and highlight terms.
-    pub(super) fn local(&self, counts: &mut Counts) -> Rgb {
+    pub(super) fn local<O: Observer>(&self, counts: &mut Counts, observer: &mut O) -> Rgb {
         let mut sum = Rgb::ZERO;
         // Looked up once, and only if a term needs it.
         let color = LazyCell::new(|| self.color());
         for effect in &self.material.effects {
-            sum += match *effect {
-                Effect::Ambient(strength) => strength * *color * self.snapshot.lights.ambient,
+            let (factor, light) = match *effect {
+                Effect::Ambient(strength) => (strength * *color, self.snapshot.lights.ambient),
                 Effect::Diffuse(strength) => {
-                    strength * *color * self.over_lights(counts, |light| light.intensity * light.cosine)
+                    (strength * *color, self.over_lights(counts, observer, |light| light.intensity * light.cosine))
                 }
                 Effect::Glossy { diffuse, highlight, exponent } => {
                     let color = *color;
-                    self.over_lights(counts, |light| {
+                    let light = self.over_lights(counts, observer, |light| {
                         // Where the mirrored light points away from the viewer there is no highlight, whatever the
                         // exponent.
                         let mirrored = optics::reflect(-light.direction, self.surface.shading_normal);
                         let aligned = -mirrored.dot(self.direction);
                         let shine = if aligned > 0.0 { math::pow(aligned, exponent) } else { 0.0 };
                         (diffuse * color * light.cosine + highlight * shine) * light.intensity
-                    })
+                    });
+                    (Rgb::ONE, light)
                 }
-                Effect::Mirror(_) | Effect::Through(_) | Effect::Refract(_) | Effect::Split(_) => Rgb::ZERO,
+                Effect::Mirror(_) | Effect::Through(_) | Effect::Refract(_) | Effect::Split(_) => continue,
             };
+            sum += factor * light;
+            observer.term(effect, factor, light);
         }
         sum
     }
@@ -90,35 +94,43 @@ impl<'a> Point<'a> {
     }
 
     /// Sum of a term over the lights that reach the point.
-    fn over_lights(&self, counts: &mut Counts, term: impl Fn(&Arriving) -> Rgb) -> Rgb {
+    fn over_lights<O: Observer>(&self, counts: &mut Counts, observer: &mut O, term: impl Fn(&Arriving) -> Rgb) -> Rgb {
         let start = self.surface.departure(self.surface.normal, self.travelled);
         let mut sum = Rgb::ZERO;
         for (lamp, n) in self.snapshot.lights.lamps.iter().zip(0..) {
             let mut one = |sample| {
-                let light = lamp.illuminate(start, sample)?;
-                self.arriving(start, &light, counts).map(|arriving| term(&arriving))
+                let light = lamp.illuminate(start, sample);
+                let (visible, arriving) = match &light {
+                    Some(light) => self.arriving(start, light, counts),
+                    None => (None, None),
+                };
+                observer.looked(&Look { lamp: n, from: start, light: light.as_ref(), visible });
+                arriving.map(|arriving| term(&arriving))
             };
-            sum += match lamp.sampling() {
+            let light = match lamp.sampling() {
                 None => one(DVec2::ZERO).unwrap_or(Rgb::ZERO),
                 Some(sampling) => mean_over(sampling, self.key.child(n), one),
             };
+            sum += light;
+            observer.lamp(n, light);
         }
         sum
     }
 
-    /// What of a light arrives at the point after shadows, if anything does.
-    fn arriving(&self, start: DVec3, light: &Illumination, counts: &mut Counts) -> Option<Arriving> {
+    /// The share of a light that gets through to the point, if it shines on this side, and what arrives, if anything does.
+    fn arriving(&self, start: DVec3, light: &Illumination, counts: &mut Counts) -> (Option<Rgb>, Option<Arriving>) {
         let direction = light.to_light.normalize();
         let cosine = self.surface.shading_normal.dot(direction);
         if cosine <= 0.0 || cosine.is_nan() {
-            return None;
+            return (None, None);
         }
         let visible = if light.shadows && self.snapshot.settings.shadows {
             self.visibility(Ray { origin: start, direction: light.to_light }, light.distance, counts)
         } else {
             Rgb::ONE
         };
-        (visible != Rgb::ZERO).then(|| Arriving { direction, cosine, intensity: light.intensity * visible })
+        let arriving = || Arriving { direction, cosine, intensity: light.intensity * visible };
+        (Some(visible), (visible != Rgb::ZERO).then(arriving))
     }
 
     /// Share of a light that gets through to the start of `ray`, which ends at the light: every transparent surface in

@@ -3,6 +3,7 @@
 use super::{
     Counts, Key,
     interior::{self, Interior, Sides},
+    observe::{Added, Dropped, Forward, Observer, Traced, Way},
     optics,
     shade::{Point, straight_eta},
 };
@@ -30,13 +31,27 @@ fn samples(antialias: Antialias) -> &'static [(f64, f64)] {
 /// The linear light of a pixel: a pure function of its arguments but for the counts.
 #[must_use]
 pub fn pixel(snapshot: &Snapshot, x: u32, y: u32, accelerator: Accelerator, counts: &mut Counts) -> Rgb {
+    pixel_observed(snapshot, x, y, accelerator, counts, &mut ())
+}
+
+/// [`pixel`], to the last bit, while `observer` is told how it comes about.
+#[must_use]
+pub fn pixel_observed<O: Observer>(
+    snapshot: &Snapshot,
+    x: u32,
+    y: u32,
+    accelerator: Accelerator,
+    counts: &mut Counts,
+    observer: &mut O,
+) -> Rgb {
     let settings = &snapshot.settings;
     let samples = samples(settings.antialias);
     let mut sum = Rgb::ZERO;
     for ((dx, dy), n) in samples.iter().zip(0..) {
         let ray = snapshot.view.ray(f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy, settings.width, settings.height);
         counts.primary += 1;
-        sum += light_along(snapshot, ray, Key::of_pixel(x, y, n), accelerator, counts);
+        observer.sample();
+        sum += light_along(snapshot, ray, Key::of_pixel(x, y, n), accelerator, counts, observer);
     }
     sum / samples.len() as f64
 }
@@ -59,12 +74,21 @@ struct Pending {
 ///
 /// The tree of rays is walked with a stack of its own, the mirrored branch of a surface before the transmitted one, and
 /// every contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
-fn light_along(snapshot: &Snapshot, ray: Ray, key: Key, accelerator: Accelerator, counts: &mut Counts) -> Rgb {
+fn light_along<O: Observer>(
+    snapshot: &Snapshot,
+    ray: Ray,
+    key: Key,
+    accelerator: Accelerator,
+    counts: &mut Counts,
+    observer: &mut O,
+) -> Rgb {
     let Snapshot { settings, materials, .. } = snapshot;
     let mut sum = Rgb::ZERO;
     let mut pending: SmallVec<[Pending; 8]> = SmallVec::new();
     let interior = snapshot.inside.clone();
-    pending.push(Pending { ray, weight: Rgb::ONE, depth: 0, interior, wavelength: None, key });
+    let (way, weight) = (Way::Camera, Rgb::ONE);
+    observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
+    pending.push(Pending { ray, weight, depth: 0, interior, wavelength: None, key });
     while let Some(Pending { ray, mut weight, depth, interior, wavelength, key }) = pending.pop() {
         let mut cost = Cost::default();
         let met = snapshot.geometry.closest(&ray, f64::INFINITY, accelerator, &mut cost);
@@ -73,8 +97,10 @@ fn light_along(snapshot: &Snapshot, ray: Ray, key: Key, accelerator: Accelerator
             let travelled = met.map_or(f64::INFINITY, |met| met.t);
             weight *= interior::transmittance(interior.medium(materials), travelled);
         }
+        observer.traced(&Traced { met: met.as_ref(), weight });
         let Some(met) = met else {
             sum += weight * settings.background;
+            observer.added(Added::Background, weight, settings.background);
             continue;
         };
         let point = Point::new(snapshot, accelerator, &ray, met, &interior, key);
@@ -83,34 +109,42 @@ fn light_along(snapshot: &Snapshot, ray: Ray, key: Key, accelerator: Accelerator
             // The surface lies inside a body that counts before its own: it is not there.
             let ray = Ray { origin: point.surface.departure(ray.direction, met.t), direction: ray.direction };
             let interior = interior.across(met.object, point.entering);
+            let (way, share) = (Way::Onward, Rgb::ONE);
+            observer.put_forward(&Forward { way, ray: &ray, share, weight, wavelength });
             pending.push(Pending { ray, weight, depth, interior, wavelength, key });
             continue;
         }
-        sum += weight * point.local(counts);
+        let local = point.local(counts, observer);
+        sum += weight * local;
+        observer.added(Added::Surface, weight, local);
 
         let branches = point.branches(sides.flatten(), wavelength);
         for (n, branch) in branches.into_iter().enumerate().rev() {
             let weight = weight * branch.share;
+            let origin = point.surface.departure(branch.direction, point.travelled);
+            let ray = Ray { origin, direction: branch.direction };
+            let Branch { way, share, wavelength, .. } = branch;
+            let forward = Forward { way, ray: &ray, share, weight, wavelength };
             if depth >= settings.depth {
                 counts.too_deep += 1;
-                sum += weight * beyond_depth(settings.background);
+                let beyond = beyond_depth(settings.background);
+                sum += weight * beyond;
+                observer.dropped(&forward, Dropped::TooDeep);
+                observer.added(Added::BeyondDepth, weight, beyond);
             } else if weight.max_element() < settings.cutoff {
                 counts.cut += 1;
+                observer.dropped(&forward, Dropped::Cut);
             } else {
-                let interior = match branch.kind {
-                    Kind::Mirror => {
-                        counts.mirror += 1;
-                        interior.clone()
-                    }
-                    Kind::Transmitted => {
-                        counts.transmitted += 1;
-                        if sides.is_some() { interior.across(met.object, point.entering) } else { interior.clone() }
-                    }
+                observer.put_forward(&forward);
+                let interior = if way == Way::Mirrored {
+                    counts.mirror += 1;
+                    interior.clone()
+                } else {
+                    counts.transmitted += 1;
+                    if sides.is_some() { interior.across(met.object, point.entering) } else { interior.clone() }
                 };
-                let origin = point.surface.departure(branch.direction, point.travelled);
-                let ray = Ray { origin, direction: branch.direction };
                 // Lights count from zero up, branches from the top down.
-                let (wavelength, key) = (branch.wavelength, key.child(u32::MAX - n as u32));
+                let key = key.child(u32::MAX - n as u32);
                 pending.push(Pending { ray, weight, depth: depth + 1, interior, wavelength, key });
             }
         }
@@ -124,15 +158,9 @@ fn beyond_depth(background: Rgb) -> Rgb {
     Rgb::splat((background.x + background.y + background.z) / 3.0)
 }
 
-/// What became of the light.
-enum Kind {
-    Mirror,
-    Transmitted,
-}
-
 /// A ray that goes on from a surface.
 struct Branch {
-    kind: Kind,
+    way: Way,
     /// Unit.
     direction: DVec3,
     /// Share of its light that leaves toward the viewer; not zero.
@@ -147,18 +175,18 @@ impl Point<'_> {
     /// The rays that go on from here, in the order in which they are traced.
     fn branches(&self, sides: Option<Sides<'_>>, wavelength: Option<f64>) -> Branches {
         let mut branches = Branches::new();
-        let mut add = |kind, direction, share: Rgb, wavelength| {
+        let mut add = |way, direction, share: Rgb, wavelength| {
             if share != Rgb::ZERO {
-                branches.push(Branch { kind, direction, share, wavelength });
+                branches.push(Branch { way, direction, share, wavelength });
             }
         };
         for effect in &self.material.effects {
             match *effect {
-                Effect::Mirror(share) => add(Kind::Mirror, self.mirrored(), share, wavelength),
-                Effect::Through(share) => add(Kind::Transmitted, self.direction, share, wavelength),
+                Effect::Mirror(share) => add(Way::Mirrored, self.mirrored(), share, wavelength),
+                Effect::Through(share) => add(Way::Transmitted, self.direction, share, wavelength),
                 Effect::Refract(strength) => self.each_line(sides, wavelength, |eta, color, wavelength| {
                     if let Some(direction) = self.refracted(eta) {
-                        add(Kind::Transmitted, direction, strength * color, wavelength);
+                        add(Way::Transmitted, direction, strength * color, wavelength);
                     }
                 }),
                 Effect::Split(part) => {
@@ -176,9 +204,9 @@ impl Point<'_> {
                         }
                     });
                     let mirrored = if lines.is_empty() { part } else { mirrored };
-                    add(Kind::Mirror, self.mirrored(), mirrored, wavelength);
+                    add(Way::Mirrored, self.mirrored(), mirrored, wavelength);
                     for (direction, share, wavelength) in lines {
-                        add(Kind::Transmitted, direction, share, wavelength);
+                        add(Way::Transmitted, direction, share, wavelength);
                     }
                 }
                 Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. } => {}
