@@ -37,6 +37,9 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
     }
 
     /// The surface at a hit that `hit` returned for this ray; runs once per ray, for the nearest hit only.
+    ///
+    /// For filtered textures it is also asked how the surface goes on beside such a hit: for a ray that is off by a
+    /// small part of a pixel and may pass the shape's edge, at the `t` where it crosses the tangent plane.
     fn surface(packed: &Self::Packed, ray: &Ray, hit: Hit) -> Surface;
 
     /// A sphere that holds the shape; by default the one about the bounds.

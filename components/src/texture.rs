@@ -23,15 +23,32 @@ pub trait Texture: Describe + Component<Mutability = Mutable> {
 pub trait Pattern: Send + Sync + core::fmt::Debug + 'static {
     /// The colour there, linear RGB.
     fn color(&self, at: &TexturePoint) -> Rgb;
+
+    /// Whether the colour depends on [`TexturePoint::footprint`]; where no texture of a scene does, none is worked out.
+    fn filters(&self) -> bool {
+        false
+    }
 }
 
 /// Where on a surface a texture is looked up.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TexturePoint {
     /// The shape's texture coordinates.
     pub uv: DVec2,
     /// The point, world space.
     pub point: DVec3,
+    /// How much of the surface is seen as one; zero for a texture that does not filter.
+    pub footprint: Footprint,
+}
+
+/// How far a lookup moves from one ray to the next in the picture, to the right and down: the sides of the parallelogram
+/// whose mean colour the ray stands for. Infinite where nothing is known of the neighbours.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Footprint {
+    /// In texture coordinates.
+    pub uv: [DVec2; 2],
+    /// In world space.
+    pub point: [DVec3; 2],
 }
 
 /// Pixels of an image, linear light, the first row on top.
@@ -167,7 +184,7 @@ mod tests {
 
     #[test]
     fn the_checkerboard_alternates_across_the_origin() {
-        let at = |u, v| Checker::default().color(&TexturePoint { uv: DVec2::new(u, v), point: DVec3::ZERO }).x;
+        let at = |u, v| Checker::default().color(&TexturePoint { uv: DVec2::new(u, v), ..TexturePoint::default() }).x;
         assert_eq!(
             [at(0.5, 0.5), at(-0.5, 0.5), at(-0.5, -0.5), at(1.5, 0.5), at(1e9 + 0.5, 0.5)],
             [1.0, 0.0, 1.0, 0.0, 1.0]

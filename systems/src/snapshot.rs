@@ -53,6 +53,8 @@ pub struct Materials {
     pub media: Vec<Option<Medium>>,
     /// Whether light passes through any material.
     pub any_transparent: bool,
+    /// Whether any texture asks how much of a surface a ray stands for.
+    pub any_filtered: bool,
 }
 
 /// What a clear body is filled with.
@@ -176,6 +178,18 @@ impl Material {
             None => self.color,
             Some(pattern) => self.color * pattern.color(at),
         }
+    }
+
+    /// Whether the texture asks how much of the surface a ray stands for.
+    #[must_use]
+    pub fn is_filtered(&self) -> bool {
+        self.texture.as_ref().is_some_and(|texture| texture.filters())
+    }
+
+    /// Whether rays go on from the surface.
+    #[must_use]
+    pub fn goes_on(&self) -> bool {
+        !self.effects.iter().all(|e| matches!(e, Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. }))
     }
 
     /// Whether light passes through.

@@ -4,7 +4,6 @@
 //! smooths all, with the area-weighted mean normal of the faces around each vertex where the file has none.
 
 use super::shear::RayFrame;
-use super::triangle::weights;
 use crate::{
     asset::Asset,
     bvh::{Box32, Bvh},
@@ -354,7 +353,7 @@ impl Primitive for Mesh {
         let corners = mesh.triangles[hit.part as usize];
         let vertices = mesh.points(corners);
         let object_ray = ray.transformed(&placed.object_from_world);
-        let [u, v, w] = weights(RayFrame::new(&object_ray).hit(vertices, hit.t));
+        let [u, v, w] = RayFrame::new(&object_ray).weights(vertices);
         let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
         let normal = (placed.cotangent * mesh.cross(corners)).normalize_or(DVec3::Y);
         let normals = match placed.shading {

@@ -59,14 +59,27 @@ impl RayFrame {
         [v[self.kx] - self.shear_x * z, v[self.ky] - self.shear_y * z, z * self.scale_z]
     }
 
+    /// Twice the signed areas that the ray cuts off at the edges opposite to each vertex.
+    #[inline]
+    fn edges([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+        [c[0] * b[1] - c[1] * b[0], a[0] * c[1] - a[1] * c[0], b[0] * a[1] - b[1] * a[0]]
+    }
+
+    /// Weights of the three vertices where the ray crosses the triangle's plane, beside the triangle too; those of
+    /// [`RayFrame::hit`] where that hits. The first vertex alone for a ray along the plane.
+    #[must_use]
+    pub fn weights(&self, vertices: [DVec3; 3]) -> [f64; 3] {
+        let [u, v, w] = Self::edges(vertices.map(|v| self.place(v)));
+        let det = u + v + w;
+        if det == 0.0 || !det.is_finite() { [1.0, 0.0, 0.0] } else { [u / det, v / det, w / det] }
+    }
+
     /// Hit of either side of a triangle with `0 < t <= t_max`; edges and vertices count as inside.
     #[must_use]
     #[inline]
     pub fn hit(&self, vertices: [DVec3; 3], t_max: f64) -> Option<TriangleHit> {
         let [a, b, c] = vertices.map(|v| self.place(v));
-        let u = c[0] * b[1] - c[1] * b[0];
-        let v = a[0] * c[1] - a[1] * c[0];
-        let w = b[0] * a[1] - b[1] * a[0];
+        let [u, v, w] = Self::edges([a, b, c]);
         if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
             return None;
         }

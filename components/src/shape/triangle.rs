@@ -2,7 +2,7 @@
 //!
 //! The front faces the side from which a, b, c run counter-clockwise. Without `uvs`, u and v are the weights of b and c.
 
-use super::shear::{RayFrame, TriangleHit};
+use super::shear::RayFrame;
 use crate::{
     describe::{Describe, Fault, FieldVisitor, Spec, Value},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
@@ -84,8 +84,8 @@ impl Primitive for Triangle {
         RayFrame::new(ray).hit(packed.vertices, t_max).map(|h| Hit { t: h.t, part: 0 })
     }
 
-    fn surface(packed: &PackedTriangle, ray: &Ray, hit: Hit) -> Surface {
-        let [u, v, w] = weights(RayFrame::new(ray).hit(packed.vertices, hit.t));
+    fn surface(packed: &PackedTriangle, ray: &Ray, _: Hit) -> Surface {
+        let [u, v, w] = RayFrame::new(ray).weights(packed.vertices);
         let [a, b, c] = packed.vertices;
         let shading_normal =
             packed.normals.map_or(packed.normal, |[na, nb, nc]| (na * u + nb * v + nc * w).normalize_or(packed.normal));
@@ -103,11 +103,6 @@ impl Primitive for Triangle {
     fn bounding_sphere(packed: &PackedTriangle, bounds: &Bounds) -> BoundingSphere {
         BoundingSphere::about(bounds.center(), packed.vertices)
     }
-}
-
-/// The weights of a hit that is known to be one.
-pub(super) fn weights(hit: Option<TriangleHit>) -> [f64; 3] {
-    hit.map_or([1.0, 0.0, 0.0], |h| h.weights)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use super::pool::{Best, ErasedPool, Nearest};
 use snell_components::{
     bvh::{Box32, Bvh},
-    primitive::{Cost, Extent, Surface},
+    primitive::{Cost, Extent, Hit, Surface},
     space::Ray,
 };
 use std::sync::Arc;
@@ -38,6 +38,8 @@ pub struct Intersection {
     pub t: f64,
     /// Rank of the object in the order of names.
     pub object: u32,
+    /// Which pool, which shape in it, and which part of the shape.
+    shape: (u32, u32, u32),
 }
 
 /// Every shape of a scene; immutable and shared.
@@ -104,8 +106,16 @@ impl Geometry {
     #[must_use]
     pub fn closest(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> Option<Intersection> {
         let nearest = self.nearest(ray, t_max, with, cost)?;
-        let surface = self.pools[nearest.pool as usize].surface(nearest.index, ray, nearest.hit);
-        Some(Intersection { surface, t: nearest.hit.t, object: nearest.object })
+        let Nearest { hit, pool, index, object } = nearest;
+        let surface = self.pools[pool as usize].surface(index, ray, hit);
+        Some(Intersection { surface, t: hit.t, object, shape: (pool, index, hit.part) })
+    }
+
+    /// How a surface that was met goes on: where a ray close by, at a distance `t`, crosses its tangent plane.
+    #[must_use]
+    pub fn beside(&self, met: &Intersection, ray: &Ray, t: f64) -> Surface {
+        let (pool, index, part) = met.shape;
+        self.pools[pool as usize].surface(index, ray, Hit { t, part })
     }
 
     fn nearest(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> Option<Nearest> {

@@ -193,7 +193,8 @@ pub fn gather_materials(
         media.clear();
     }
     let any_transparent = all.iter().any(Material::is_transparent);
-    parts.materials = Arc::new(Materials { all, of_object, media, any_transparent });
+    let any_filtered = all.iter().any(Material::is_filtered);
+    parts.materials = Arc::new(Materials { all, of_object, media, any_transparent, any_filtered });
 }
 
 /// Ambient and diffuse strengths of things without a material, and of materials without a term of light.

@@ -4,6 +4,7 @@
 //! order of tiles nor the region can change a bit of it.
 
 mod counts;
+mod footprint;
 mod interior;
 mod observe;
 mod optics;

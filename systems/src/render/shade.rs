@@ -18,7 +18,7 @@ use snell_components::{
     math,
     primitive::{Cost, OFFSET_ULPS, Surface},
     space::Ray,
-    texture::TexturePoint,
+    texture::{Footprint, TexturePoint},
 };
 
 /// A point to be shaded, its normals turned toward the viewer.
@@ -59,10 +59,15 @@ impl<'a> Point<'a> {
     }
 
     /// Sum of the ambient, diffuse and highlight terms.
-    pub(super) fn local<O: Observer>(&self, counts: &mut Counts, observer: &mut O) -> Rgb {
+    pub(super) fn local<O: Observer>(
+        &self,
+        footprint: impl FnOnce() -> Footprint,
+        counts: &mut Counts,
+        observer: &mut O,
+    ) -> Rgb {
         let mut sum = Rgb::ZERO;
         // Looked up once, and only if a term needs it.
-        let color = LazyCell::new(|| self.color());
+        let color = LazyCell::new(|| self.color(footprint()));
         for effect in &self.material.effects {
             let (factor, light) = match *effect {
                 Effect::Ambient(strength) => (strength * *color, self.snapshot.lights.ambient),
@@ -89,8 +94,8 @@ impl<'a> Point<'a> {
         sum
     }
 
-    fn color(&self) -> Rgb {
-        self.material.color_at(&TexturePoint { uv: self.surface.uv, point: self.surface.point })
+    fn color(&self, footprint: Footprint) -> Rgb {
+        self.material.color_at(&TexturePoint { uv: self.surface.uv, point: self.surface.point, footprint })
     }
 
     /// Sum of a term over the lights that reach the point.

@@ -2,6 +2,7 @@
 
 use super::{
     Counts, Key,
+    footprint::{Beside, Neighbours},
     interior::{self, Interior, Sides},
     observe::{Added, Dropped, Forward, Observer, Traced, Way},
     optics,
@@ -28,6 +29,14 @@ fn samples(antialias: Antialias) -> &'static [(f64, f64)] {
     }
 }
 
+/// How far apart those are, in pixels.
+fn spacing(antialias: Antialias) -> f64 {
+    match antialias {
+        Antialias::Off => 1.0,
+        Antialias::Four => 0.5,
+    }
+}
+
 /// The linear light of a pixel: a pure function of its arguments but for the counts.
 #[must_use]
 pub fn pixel(snapshot: &Snapshot, x: u32, y: u32, accelerator: Accelerator, counts: &mut Counts) -> Rgb {
@@ -48,17 +57,25 @@ pub fn pixel_observed<O: Observer>(
     let samples = samples(settings.antialias);
     let mut sum = Rgb::ZERO;
     for ((dx, dy), n) in samples.iter().zip(0..) {
-        let ray = snapshot.view.ray(f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy, settings.width, settings.height);
+        let (px, py) = (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
+        let ray = snapshot.view.ray(px, py, settings.width, settings.height);
+        let key = Key::of_pixel(x, y, n);
         counts.primary += 1;
         observer.sample();
-        sum += light_along(snapshot, ray, Key::of_pixel(x, y, n), accelerator, counts, observer);
+        sum += if snapshot.materials.any_filtered {
+            let beside = Neighbours::start(snapshot, px, py, spacing(settings.antialias));
+            light_along(snapshot, ray, beside, key, accelerator, counts, observer)
+        } else {
+            light_along(snapshot, ray, (), key, accelerator, counts, observer)
+        };
     }
     sum / samples.len() as f64
 }
 
 /// A ray yet to be traced.
-struct Pending {
+struct Pending<B> {
     ray: Ray,
+    beside: B,
     /// What its light is multiplied by in the pixel.
     weight: Rgb,
     /// How many surfaces lie between it and the camera.
@@ -74,9 +91,10 @@ struct Pending {
 ///
 /// The tree of rays is walked with a stack of its own, the mirrored branch of a surface before the transmitted one, and
 /// every contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
-fn light_along<O: Observer>(
+fn light_along<B: Beside, O: Observer>(
     snapshot: &Snapshot,
     ray: Ray,
+    beside: B,
     key: Key,
     accelerator: Accelerator,
     counts: &mut Counts,
@@ -84,12 +102,12 @@ fn light_along<O: Observer>(
 ) -> Rgb {
     let Snapshot { settings, materials, .. } = snapshot;
     let mut sum = Rgb::ZERO;
-    let mut pending: SmallVec<[Pending; 8]> = SmallVec::new();
+    let mut pending: SmallVec<[Pending<B>; 8]> = SmallVec::new();
     let interior = snapshot.inside.clone();
     let (way, weight) = (Way::Camera, Rgb::ONE);
     observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
-    pending.push(Pending { ray, weight, depth: 0, interior, wavelength: None, key });
-    while let Some(Pending { ray, mut weight, depth, interior, wavelength, key }) = pending.pop() {
+    pending.push(Pending { ray, beside, weight, depth: 0, interior, wavelength: None, key });
+    while let Some(Pending { ray, beside, mut weight, depth, interior, wavelength, key }) = pending.pop() {
         let mut cost = Cost::default();
         let met = snapshot.geometry.closest(&ray, f64::INFINITY, accelerator, &mut cost);
         counts.add(cost);
@@ -111,10 +129,11 @@ fn light_along<O: Observer>(
             let interior = interior.across(met.object, point.entering);
             let (way, share) = (Way::Onward, Rgb::ONE);
             observer.put_forward(&Forward { way, ray: &ray, share, weight, wavelength });
-            pending.push(Pending { ray, weight, depth, interior, wavelength, key });
+            pending.push(Pending { ray, beside, weight, depth, interior, wavelength, key });
             continue;
         }
-        let local = point.local(counts, observer);
+        let beside = beside.meet(&point, &met);
+        let local = point.local(|| B::footprint(&beside, &point.surface), counts, observer);
         sum += weight * local;
         observer.added(Added::Surface, weight, local);
 
@@ -145,7 +164,8 @@ fn light_along<O: Observer>(
                 };
                 // Lights count from zero up, branches from the top down.
                 let key = key.child(u32::MAX - n as u32);
-                pending.push(Pending { ray, weight, depth: depth + 1, interior, wavelength, key });
+                let beside = B::go_on(&beside, &point, &branch);
+                pending.push(Pending { ray, beside, weight, depth: depth + 1, interior, wavelength, key });
             }
         }
     }
@@ -159,10 +179,12 @@ fn beyond_depth(background: Rgb) -> Rgb {
 }
 
 /// A ray that goes on from a surface.
-struct Branch {
-    way: Way,
+pub(super) struct Branch {
+    pub way: Way,
+    /// The index where the ray comes from over the one where it goes; 1 where it does not bend.
+    pub eta: f64,
     /// Unit.
-    direction: DVec3,
+    pub direction: DVec3,
     /// Share of its light that leaves toward the viewer; not zero.
     share: Rgb,
     /// In nanometres; none for white light.
@@ -175,18 +197,18 @@ impl Point<'_> {
     /// The rays that go on from here, in the order in which they are traced.
     fn branches(&self, sides: Option<Sides<'_>>, wavelength: Option<f64>) -> Branches {
         let mut branches = Branches::new();
-        let mut add = |way, direction, share: Rgb, wavelength| {
+        let mut add = |way, eta, direction, share: Rgb, wavelength| {
             if share != Rgb::ZERO {
-                branches.push(Branch { way, direction, share, wavelength });
+                branches.push(Branch { way, eta, direction, share, wavelength });
             }
         };
         for effect in &self.material.effects {
             match *effect {
-                Effect::Mirror(share) => add(Way::Mirrored, self.mirrored(), share, wavelength),
-                Effect::Through(share) => add(Way::Transmitted, self.direction, share, wavelength),
+                Effect::Mirror(share) => add(Way::Mirrored, 1.0, self.mirrored(), share, wavelength),
+                Effect::Through(share) => add(Way::Transmitted, 1.0, self.direction, share, wavelength),
                 Effect::Refract(strength) => self.each_line(sides, wavelength, |eta, color, wavelength| {
                     if let Some(direction) = self.refracted(eta) {
-                        add(Way::Transmitted, direction, strength * color, wavelength);
+                        add(Way::Transmitted, eta, direction, strength * color, wavelength);
                     }
                 }),
                 Effect::Split(part) => {
@@ -198,15 +220,15 @@ impl Point<'_> {
                     self.each_line(sides, wavelength, |eta, color, wavelength| {
                         let share = part * (1.0 - reflected) * color;
                         match self.refracted(eta).filter(|_| reflected < 1.0) {
-                            Some(direction) => lines.push((direction, share, wavelength)),
+                            Some(direction) => lines.push((eta, direction, share, wavelength)),
                             // Beyond the critical angle of this wavelength.
                             None => mirrored += share,
                         }
                     });
                     let mirrored = if lines.is_empty() { part } else { mirrored };
-                    add(Way::Mirrored, self.mirrored(), mirrored, wavelength);
-                    for (direction, share, wavelength) in lines {
-                        add(Way::Transmitted, direction, share, wavelength);
+                    add(Way::Mirrored, 1.0, self.mirrored(), mirrored, wavelength);
+                    for (eta, direction, share, wavelength) in lines {
+                        add(Way::Transmitted, eta, direction, share, wavelength);
                     }
                 }
                 Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. } => {}
@@ -249,7 +271,7 @@ impl Point<'_> {
     }
 
     /// The mirrored direction; at the true surface where the interpolated normal would send it below that.
-    fn mirrored(&self) -> DVec3 {
+    pub(super) fn mirrored(&self) -> DVec3 {
         let mirrored = optics::reflect(self.direction, self.bending_normal());
         if mirrored.dot(self.surface.normal) > 0.0 {
             mirrored
@@ -259,7 +281,7 @@ impl Point<'_> {
     }
 
     /// The refracted direction, if any; at the true surface where the interpolated normal would keep it above that.
-    fn refracted(&self, eta: f64) -> Option<DVec3> {
+    pub(super) fn refracted(&self, eta: f64) -> Option<DVec3> {
         if !self.snapshot.settings.refraction {
             return Some(self.direction);
         }
