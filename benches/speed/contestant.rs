@@ -1,0 +1,69 @@
+//! Snell as one of the programs that `benches/peers/compare.py` sets side by side; the README there tells the rules.
+
+use crate::{
+    clock::{Spent, spent},
+    rays::{Kind, Rays},
+    subject::{Subject, build},
+};
+use snell::systems::accelerate::Geometry;
+use std::{
+    error::Error,
+    io::{self, BufRead, Write},
+    path::Path,
+};
+
+/// Writes the sets of rays about a mesh.
+pub(crate) fn write_rays(mesh: &Path, rays: &Path) -> Result<(), Box<dyn Error>> {
+    let subject = Subject::read_tri(mesh)?;
+    let (min, max) = subject.bounds();
+    for set in Rays::about(&subject.snapshot().geometry, min, max) {
+        set.write(rays)?;
+    }
+    Ok(())
+}
+
+/// Answers commands until there are no more.
+pub(crate) fn answer(mesh: &Path, rays: &Path) -> Result<(), Box<dyn Error>> {
+    let subject = Subject::read_tri(mesh)?;
+    let snapshot = subject.snapshot();
+    let mut sets = vec![];
+    for kind in Kind::ALL {
+        sets.push(Rays::read(rays, kind)?);
+    }
+    tell(format_args!(r#"{{"name": "Snell {}"}}"#, env!("CARGO_PKG_VERSION")))?;
+    for line in io::stdin().lock().lines() {
+        let line = line?;
+        let words: Vec<_> = line.split_whitespace().collect();
+        match *words {
+            ["build", threads] => answer_build(&subject, threads.parse()?)?,
+            ["trace", kind, threads] => {
+                let set = sets.iter().find(|set| set.kind.name() == kind).ok_or("no such kind of rays")?;
+                answer_trace(set, &snapshot.geometry, threads.parse()?)?;
+            }
+            _ => return Err(format!("not understood: {line}").into()),
+        }
+    }
+    Ok(())
+}
+
+fn answer_build(subject: &Subject, threads: usize) -> Result<(), Box<dyn Error>> {
+    let mesh = subject.mesh();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let ((), Spent { wall, cpu }) = spent(|| pool.install(|| build(&mesh)));
+    let model = mesh.model.data.as_deref().ok_or("a mesh without triangles")?;
+    let (items, bytes) = (model.len(), model.bytes());
+    tell(format_args!(r#"{{"items": {items}, "bytes": {bytes}, "wall": {wall:.6}, "cpu": {cpu:.6}}}"#))?;
+    Ok(())
+}
+
+fn answer_trace(set: &Rays, geometry: &Geometry, threads: usize) -> io::Result<()> {
+    let (met, Spent { wall, cpu }) = spent(|| set.trace(geometry, threads));
+    let (items, hits, t) = (set.rays.len(), met.hits, met.t);
+    tell(format_args!(r#"{{"items": {items}, "hits": {hits}, "t": {t:e}, "wall": {wall:.6}, "cpu": {cpu:.6}}}"#))
+}
+
+fn tell(line: core::fmt::Arguments<'_>) -> io::Result<()> {
+    let mut out = io::stdout().lock();
+    writeln!(out, "{line}")?;
+    out.flush()
+}

@@ -1,0 +1,192 @@
+//! Sets of rays of four kinds about one mesh, the same for Snell and for its peers.
+//!
+//! A camera looks at the mesh; every primary ray that hits sends one ray toward a light, one mirrored, and one in a
+//! random direction about the normal (cosine-distributed: the incoherent set). Rays are `f32`, as the peers trace them;
+//! those from the surface start a ten-thousandth of the mesh's diagonal above it, so that no kernel's rounding decides
+//! what is hit.
+
+use crate::random::Random;
+use snell::{
+    Accelerator,
+    components::{math, primitive::Cost, space::Ray},
+    prelude::DVec3,
+    systems::accelerate::Geometry,
+};
+use std::{
+    fs,
+    io::{self, Error, ErrorKind},
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicUsize, Ordering},
+    thread,
+};
+
+/// Primary rays along one edge of their square.
+const EDGE: u32 = 1024;
+
+/// Rays a thread takes at a time.
+const CHUNK: usize = 4096;
+
+/// What rays are for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    Primary,
+    Shadow,
+    Mirror,
+    Diffuse,
+}
+
+impl Kind {
+    pub(crate) const ALL: [Self; 4] = [Self::Primary, Self::Shadow, Self::Mirror, Self::Diffuse];
+
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Primary => "primary",
+            Self::Shadow => "shadow",
+            Self::Mirror => "mirror",
+            Self::Diffuse => "diffuse",
+        }
+    }
+}
+
+/// A ray as the files hold it: eight little-endian `f32`, with the nearest distance (always 0) after the origin.
+#[derive(Clone, Copy)]
+pub(crate) struct FileRay {
+    origin: [f32; 3],
+    direction: [f32; 3],
+    t_max: f32,
+}
+
+impl FileRay {
+    fn new(origin: DVec3, direction: DVec3, t_max: f64) -> Self {
+        let single = |v: DVec3| v.to_array().map(|x| x as f32);
+        Self { origin: single(origin), direction: single(direction), t_max: t_max as f32 }
+    }
+
+    fn ray(&self) -> Ray {
+        let double = |v: [f32; 3]| DVec3::from_array(v.map(f64::from));
+        Ray { origin: double(self.origin), direction: double(self.direction) }
+    }
+}
+
+/// What a set of rays met.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Met {
+    pub(crate) hits: u64,
+    /// Sum of the distances.
+    pub(crate) t: f64,
+    pub(crate) cost: Cost,
+}
+
+/// Rays of one kind.
+pub(crate) struct Rays {
+    pub(crate) kind: Kind,
+    pub(crate) rays: Vec<FileRay>,
+}
+
+impl Rays {
+    /// All four sets about a mesh within a box.
+    pub(crate) fn about(geometry: &Geometry, min: DVec3, max: DVec3) -> [Self; 4] {
+        let size = (max - min).length();
+        let center = 0.5 * (min + max);
+        let back = DVec3::new(0.3, 0.25, 1.0).normalize();
+        let right = DVec3::Y.cross(back).normalize();
+        let up = back.cross(right);
+        let eye = center + 1.15 * size * back;
+        let light = center + size * DVec3::new(1.2, 1.6, 0.9);
+        let half = math::tan_degrees(19.0);
+        let mut random = Random(977);
+        let mut sets = Kind::ALL.map(|kind| Self { kind, rays: vec![] });
+        let [primary, shadow, mirror, diffuse] = &mut sets;
+        let screen = |i: u32| (2.0 * (f64::from(i) + 0.5) / f64::from(EDGE) - 1.0) * half;
+        for (x, y) in (0..EDGE * EDGE).map(|i| (screen(i % EDGE), -screen(i / EDGE))) {
+            let ray = FileRay::new(eye, (x * right + y * up - back).normalize(), f64::from(FAR));
+            primary.rays.push(ray);
+            let ray = ray.ray();
+            let found = geometry.closest(&ray, f64::INFINITY, Accelerator::Tree, &mut Cost::default());
+            let Some(hit) = found else { continue };
+            let normal = if hit.surface.normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 } * hit.surface.normal;
+            let start = hit.surface.point + 1e-4 * size * normal;
+            let to_light = light - start;
+            shadow.rays.push(FileRay::new(start, to_light.normalize(), to_light.length()));
+            let mirrored = ray.direction - 2.0 * normal.dot(ray.direction) * normal;
+            mirror.rays.push(FileRay::new(start, mirrored.normalize(), f64::from(FAR)));
+            diffuse.rays.push(FileRay::new(start, cosine(normal, &mut random), f64::from(FAR)));
+        }
+        sets
+    }
+
+    /// Traces all rays on some threads.
+    pub(crate) fn trace(&self, geometry: &Geometry, threads: usize) -> Met {
+        let next = AtomicUsize::new(0);
+        let work = || {
+            let mut met = Met::default();
+            while let Some(rays) = self.rays.get(next.fetch_add(CHUNK, Ordering::Relaxed)..) {
+                for ray in &rays[..rays.len().min(CHUNK)] {
+                    self.trace_one(ray, geometry, &mut met);
+                }
+            }
+            met
+        };
+        thread::scope(|scope| {
+            let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+            others.into_iter().map(|other| other.join().expect("no panic")).fold(work(), |sum, met| {
+                let mut cost = sum.cost;
+                cost += met.cost;
+                Met { hits: sum.hits + met.hits, t: sum.t + met.t, cost }
+            })
+        })
+    }
+
+    #[inline]
+    fn trace_one(&self, ray: &FileRay, geometry: &Geometry, met: &mut Met) {
+        let t_max = f64::from(ray.t_max);
+        if self.kind == Kind::Shadow {
+            met.hits += u64::from(geometry.blocked(&ray.ray(), t_max, Accelerator::Tree, &mut met.cost));
+        } else if let Some(hit) = geometry.closest(&ray.ray(), t_max, Accelerator::Tree, &mut met.cost) {
+            met.hits += 1;
+            met.t += hit.t;
+        }
+    }
+
+    /// Writes the set beside others whose files begin with `prefix`.
+    pub(crate) fn write(&self, prefix: &Path) -> io::Result<()> {
+        let numbers = |r: &FileRay| {
+            let ([ox, oy, oz], [dx, dy, dz]) = (r.origin, r.direction);
+            [ox, oy, oz, 0.0, dx, dy, dz, r.t_max].map(f32::to_le_bytes)
+        };
+        let bytes: Vec<u8> = self.rays.iter().flat_map(numbers).flatten().collect();
+        fs::write(file(prefix, self.kind), bytes)
+    }
+
+    /// Reads what [`Rays::write`] wrote.
+    pub(crate) fn read(prefix: &Path, kind: Kind) -> io::Result<Self> {
+        let bytes = fs::read(file(prefix, kind))?;
+        let (rays, rest) = bytes.as_chunks::<32>();
+        if !rest.is_empty() {
+            return Err(Error::new(ErrorKind::InvalidData, "a file of rays is not a whole number of rays"));
+        }
+        let ray = |ray: &[u8; 32]| {
+            let (numbers, _) = ray.as_chunks();
+            let n = |i: usize| f32::from_le_bytes(numbers[i]);
+            FileRay { origin: [n(0), n(1), n(2)], direction: [n(4), n(5), n(6)], t_max: n(7) }
+        };
+        Ok(Self { kind, rays: rays.iter().map(ray).collect() })
+    }
+}
+
+/// Farther than anything.
+const FAR: f32 = 1e30;
+
+fn file(prefix: &Path, kind: Kind) -> PathBuf {
+    let mut path = prefix.as_os_str().to_owned();
+    path.push(format!(".{}.rays", kind.name()));
+    path.into()
+}
+
+/// A direction about a normal whose density goes with the cosine of the angle between them.
+fn cosine(normal: DVec3, random: &mut Random) -> DVec3 {
+    let (radius, angle) = (random.unit(), 360.0 * random.unit());
+    let (sin, cos) = math::sin_cos_degrees(angle);
+    let (x, y) = normal.any_orthonormal_pair();
+    ((x * cos + y * sin) * radius.sqrt() + normal * (1.0 - radius).sqrt()).normalize()
+}
