@@ -18,14 +18,28 @@ pub struct Settings {
     pub depth: u32,
     /// How rays are placed in a pixel.
     pub antialias: Antialias,
+    /// Rays across a pixel, and as many down, with [`Antialias::Grid`].
+    pub grid: u32,
+    /// How often a pixel is halved at most, with [`Antialias::Adaptive`].
+    pub subdivisions: u32,
+    /// By how much the corners of a part of a pixel differ in some channel for it to be halved, with
+    /// [`Antialias::Adaptive`] and no `error`.
+    pub contrast: f64,
     /// Whether things cast shadows.
     pub shadows: bool,
     /// Whether transmitted rays bend at the surface of bodies with an index; if not they go straight on.
     pub refraction: bool,
     /// What a ray sees that meets nothing, linear RGB.
     pub background: Rgb,
-    /// Mirrored and transmitted rays whose weight in the pixel is below this in every channel are not followed.
+    /// Mirrored and transmitted rays whose weight in the pixel is below this in every channel are not followed. Without
+    /// effect if there is an `error`.
     pub cutoff: f64,
+    /// How much a channel of a pixel may differ from what the same scene gives without cutting rays and with ever more
+    /// samples; 0: no such promise is made.
+    ///
+    /// One half is for rays that are not followed: it is never exceeded. The other is for the samples of lights with an
+    /// area and of [`Antialias::Adaptive`], and is kept by two standard errors.
+    pub error: f64,
 }
 
 choice! {
@@ -36,11 +50,21 @@ choice! {
         Off,
         /// Four rays at ±¼ of the pixel about the centre; their mean counts.
         Four,
+        /// Rays in rows and columns; their mean counts.
+        Grid,
+        /// Rays through the corners of the pixel, and more where these differ (Whitted 1980).
+        Adaptive,
     }
 }
 
 /// Largest width and height.
 pub const MAX_SIZE: u32 = 65_536;
+
+/// Largest number of rays across a pixel.
+pub const MAX_GRID: u32 = 64;
+
+/// How often a pixel can be halved.
+pub const MAX_SUBDIVISIONS: u32 = 7;
 
 impl Default for Settings {
     fn default() -> Self {
@@ -49,10 +73,14 @@ impl Default for Settings {
             height: 600,
             depth: 8,
             antialias: Antialias::Off,
+            grid: 4,
+            subdivisions: 2,
+            contrast: 0.05,
             shadows: true,
             refraction: true,
             background: Rgb::ZERO,
             cutoff: 0.001,
+            error: 0.0,
         }
     }
 }
@@ -67,6 +95,13 @@ impl Describe for Settings {
         let depth = Spec::within(0.0, 100_000.0, "mirrored and transmitted rays one after the other");
         fields.field("depth", Value::Integer(&mut self.depth), depth);
         fields.field("antialias", Value::Choice(&mut self.antialias), Spec::any("rays in a pixel"));
+        let grid = Spec::within(1.0, f64::from(MAX_GRID), "rays across a pixel, for `Grid`");
+        fields.field("grid", Value::Integer(&mut self.grid), grid);
+        let subdivisions =
+            Spec::within(0.0, f64::from(MAX_SUBDIVISIONS), "how often a pixel is halved, for `Adaptive`");
+        fields.field("subdivisions", Value::Integer(&mut self.subdivisions), subdivisions);
+        let contrast = Spec::not_negative("difference of corners for which it is halved, for `Adaptive`");
+        fields.field("contrast", Value::Number(&mut self.contrast), contrast);
         fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows"));
         let bends = Spec::any("whether transmitted rays bend; if not they go straight on");
         fields.field("refraction", Value::Bool(&mut self.refraction), bends);
@@ -74,5 +109,7 @@ impl Describe for Settings {
         fields.field("background", Value::Color(&mut self.background), background);
         let cutoff = Spec::within(0.0, 1.0, "weight below which mirrored and transmitted rays are not followed");
         fields.field("cutoff", Value::Number(&mut self.cutoff), cutoff);
+        let error = Spec::within(0.0, 1.0, "error of a pixel's channels that may be made, linear; 0: no promise");
+        fields.field("error", Value::Number(&mut self.error), error);
     }
 }

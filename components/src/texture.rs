@@ -28,6 +28,12 @@ pub trait Pattern: Send + Sync + core::fmt::Debug + 'static {
     fn filters(&self) -> bool {
         false
     }
+
+    /// The most of each channel that [`Pattern::color`] can give; none if that is not known. Rays are cut by an error
+    /// only where all patterns know theirs.
+    fn brightest(&self) -> Option<Rgb> {
+        None
+    }
 }
 
 /// Where on a surface a texture is looked up.
@@ -116,6 +122,13 @@ impl Pattern for Image {
     fn color(&self, at: &TexturePoint) -> Rgb {
         self.nearest(at.uv)
     }
+
+    fn brightest(&self) -> Option<Rgb> {
+        let most = self.texels.iter().fold([0.0f32; 3], |most, texel| {
+            core::array::from_fn(|i| if texel[i] > most[i] { texel[i] } else { most[i] })
+        });
+        Some(Rgb::from_array(most.map(f64::from)))
+    }
 }
 
 /// Squares of two colours in turn, in texture coordinates.
@@ -157,6 +170,10 @@ impl Pattern for Checker {
         // Halves keep the parity without converting a far coordinate to an integer.
         let half = (math::floor(square.x) + math::floor(square.y)) * 0.5;
         if half == math::floor(half) { self.even } else { self.odd }
+    }
+
+    fn brightest(&self) -> Option<Rgb> {
+        Some(self.even.max(self.odd))
     }
 }
 

@@ -1,13 +1,10 @@
 //! What may be written on the command line.
 
 use crate::Region;
-use clap::{
-    Args, Parser, Subcommand,
-    builder::{PossibleValuesParser, TypedValueParser},
-};
+use clap::{Args, Parser, Subcommand};
 use snell_components::{
     describe::Choice,
-    settings::{Antialias, MAX_SIZE},
+    settings::{Antialias, MAX_GRID, MAX_SIZE, MAX_SUBDIVISIONS},
 };
 use std::path::PathBuf;
 
@@ -36,6 +33,7 @@ Examples:
   snell render scene.ron -o out.exr                   linear light, 32-bit floats
   snell render scene.ron --size 320x240               a quick look
   snell render scene.ron --region 100,80,64,64        these pixels only
+  snell render scene.ron --error 1/255                as exact as eight bits show, with the fewest rays
   snell render scene.ron --stats stats.json --quiet   for programs")]
 pub(super) struct RenderArguments {
     /// Picture file, .png or .exr [default: the scene's name with .png, in this folder]
@@ -94,8 +92,17 @@ pub(super) struct Drawing {
     pub(super) depth: Option<u32>,
 
     /// Rays in a pixel, in place of the scene's
-    #[arg(long, value_name = "WAY", ignore_case = true, value_parser = antialias())]
-    pub(super) antialias: Option<Antialias>,
+    ///
+    /// off, four, grid, grid:ACROSS, adaptive, adaptive:SUBDIVISIONS or adaptive:SUBDIVISIONS:CONTRAST
+    #[arg(long, value_name = "WAY", value_parser = antialias)]
+    pub(super) antialias: Option<Sampling>,
+
+    /// Error that a pixel's channels may have, such as 1/255: rays, samples and pixels are saved where it allows
+    ///
+    /// In linear light, 0 to 1. Without --antialias, pixels are drawn by adaptive:6. What is proved and what is
+    /// statistical stands in docs/error-budget.md.
+    #[arg(long, value_name = "E", value_parser = error)]
+    pub(super) error: Option<f64>,
 
     /// Draw a part of the picture; the file is a crop of the whole, with the size of the part
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
@@ -152,14 +159,58 @@ fn bits(text: &str) -> Result<Bits, String> {
     }
 }
 
-/// Parses a word of [`Antialias`].
-fn antialias() -> impl TypedValueParser<Value = Antialias> {
-    PossibleValuesParser::new(Antialias::WORDS).map(|word| {
-        let mut antialias = Antialias::default();
-        let position = Antialias::WORDS.iter().position(|known| known.eq_ignore_ascii_case(&word));
-        antialias.choose(position.unwrap_or_default());
-        antialias
-    })
+/// How rays are placed in a pixel; numbers that are not given are the scene's.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Sampling {
+    pub(super) antialias: Antialias,
+    pub(super) grid: Option<u32>,
+    pub(super) subdivisions: Option<u32>,
+    pub(super) contrast: Option<f64>,
+}
+
+fn antialias(text: &str) -> Result<Sampling, String> {
+    let mut parts = text.split(':').map(str::trim);
+    let word = parts.next().unwrap_or_default();
+    let Some(position) = Antialias::WORDS.iter().position(|known| known.eq_ignore_ascii_case(word)) else {
+        return Err(format!("expected one of {}", Antialias::WORDS.join(", ").to_lowercase()));
+    };
+    let mut sampling = Sampling::default();
+    sampling.antialias.choose(position);
+    let whole = |text: &str, least: u32, most: u32, what: &str| match text.parse() {
+        Ok(n) if (least..=most).contains(&n) => Ok(n),
+        _ => Err(format!("{what} are {least} to {most}")),
+    };
+    match sampling.antialias {
+        Antialias::Off | Antialias::Four => {}
+        Antialias::Grid => {
+            sampling.grid = parts.next().map(|text| whole(text, 1, MAX_GRID, "rays across a pixel")).transpose()?;
+        }
+        Antialias::Adaptive => {
+            let subdivisions = |text| whole(text, 0, MAX_SUBDIVISIONS, "subdivisions");
+            sampling.subdivisions = parts.next().map(subdivisions).transpose()?;
+            let contrast = |text: &str| match text.parse() {
+                Ok(contrast) if contrast >= 0.0 && f64::is_finite(contrast) => Ok(contrast),
+                _ => Err("the contrast is a number of at least 0".to_string()),
+            };
+            sampling.contrast = parts.next().map(contrast).transpose()?;
+        }
+    }
+    match parts.next() {
+        None => Ok(sampling),
+        Some(more) => Err(format!("nothing is known of `{more}`")),
+    }
+}
+
+fn error(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let error = match text.split_once('/') {
+        Some((part, whole)) => number(part).zip(number(whole)).map(|(part, whole)| part / whole),
+        None => number(text),
+    };
+    match error {
+        Some(error) if (0.0..=1.0).contains(&error) => Ok(error),
+        _ => Err("expected a number from 0 to 1, such as 0.004 or 1/255".into()),
+    }
 }
 
 #[cfg(test)]
@@ -181,6 +232,34 @@ mod tests {
         assert_eq!(region("1,2,3,4"), Ok(Region { x: 1, y: 2, width: 3, height: 4 }));
         for wrong in ["1,2,3", "1,2,3,0", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4", ""] {
             assert!(region(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn ways_of_sampling_are_read_or_refused() {
+        let adaptive = Sampling { antialias: Antialias::Adaptive, ..Sampling::default() };
+        let grid = Sampling { antialias: Antialias::Grid, ..Sampling::default() };
+        for (text, expected) in [
+            ("Off", Sampling::default()),
+            ("grid", grid),
+            ("GRID:8", Sampling { grid: Some(8), ..grid }),
+            ("adaptive:3", Sampling { subdivisions: Some(3), ..adaptive }),
+            ("adaptive:0:0.1", Sampling { subdivisions: Some(0), contrast: Some(0.1), ..adaptive }),
+        ] {
+            assert_eq!(antialias(text), Ok(expected), "{text}");
+        }
+        for wrong in
+            ["", "on", "four:2", "grid:0", "grid:65", "adaptive:8", "adaptive:2:-1", "adaptive:2:inf", "grid:4:4"]
+        {
+            assert!(antialias(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn errors_are_numbers_or_fractions() {
+        assert_eq!([error("1/255"), error("0.5"), error("0")], [Ok(1.0 / 255.0), Ok(0.5), Ok(0.0)]);
+        for wrong in ["", "1/0", "2", "-0.1", "1/2/3", "nan", "x"] {
+            assert!(error(wrong).is_err(), "{wrong}");
         }
     }
 }

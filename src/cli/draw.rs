@@ -1,8 +1,14 @@
 //! Scene file → frame, for every command that draws.
 
-use super::{Console, Failure, args::Drawing, machine, progress::Progress, stats::Seconds};
+use super::{
+    Console, Failure,
+    args::{Drawing, Sampling},
+    machine,
+    progress::Progress,
+    stats::Seconds,
+};
 use crate::{Frame, Options, Region, Renderer, Snapshot, Stop, render};
-use snell_components::settings::Settings;
+use snell_components::settings::{Antialias, Settings};
 use std::{path::Path, process, sync::Arc, time::Instant};
 
 /// A frame and how it came about.
@@ -50,6 +56,10 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
 
     if frame.counts.not_finite > 0 {
         let what = format!("{} pixels are not finite numbers and shown black", frame.counts.not_finite);
+        console.warn(of_scene(&how.scene, what));
+    }
+    if snapshot.settings.error > 0.0 && snapshot.ceiling.is_none() {
+        let what = "no ray is cut, since a light or a texture does not tell how bright it can be, or nothing limits it";
         console.warn(of_scene(&how.scene, what));
     }
     let threads = pool.run(rayon::current_num_threads);
@@ -101,7 +111,14 @@ fn apply(how: &Drawing, settings: &mut Settings) {
         (settings.width, settings.height) = (size.width, size.height);
     }
     settings.depth = how.depth.unwrap_or(settings.depth);
-    settings.antialias = how.antialias.unwrap_or(settings.antialias);
+    let finely = Sampling { antialias: Antialias::Adaptive, subdivisions: Some(6), ..Sampling::default() };
+    if let Some(sampling) = how.antialias.or(how.error.map(|_| finely)) {
+        settings.antialias = sampling.antialias;
+        settings.grid = sampling.grid.unwrap_or(settings.grid);
+        settings.subdivisions = sampling.subdivisions.unwrap_or(settings.subdivisions);
+        settings.contrast = sampling.contrast.unwrap_or(settings.contrast);
+    }
+    settings.error = how.error.unwrap_or(settings.error);
 }
 
 /// The region to draw.

@@ -84,6 +84,29 @@ time     {load:.3} s load, {build:.3} s build, {trace:.3} s trace on {threads}
 speed    {:.2} million rays a second",
             self.rays_per_second / 1e6,
         )?;
+        if c.cut + c.too_deep > 0 {
+            let [cut, too_deep] = [c.cut, c.too_deep].map(grouped);
+            write!(f, "\nskipped  {cut} rays cut")?;
+            if c.cut_bound > 0.0 {
+                write!(
+                    f,
+                    ", which change no channel by more than {:.6} = {:.2}/255",
+                    c.cut_bound,
+                    255.0 * c.cut_bound
+                )?;
+            }
+            write!(f, "; {too_deep} beyond the depth")?;
+        }
+        if c.refined + c.unresolved + c.undersampled > 0 {
+            let [refined, unresolved, undersampled] = [c.refined, c.unresolved, c.undersampled].map(grouped);
+            write!(f, "\nsampled  {refined} pixels halved")?;
+            if c.unresolved > 0 {
+                write!(f, "; {unresolved} as often as `subdivisions` allows, short of the error")?;
+            }
+            if c.undersampled > 0 {
+                write!(f, "; {undersampled} times a light as often as its `samples` allow, short of its error")?;
+            }
+        }
         if let Some(bytes) = self.peak_memory_bytes {
             write!(f, "\nmemory   {} MB at most", grouped(bytes.div_ceil(1_000_000)))?;
         }

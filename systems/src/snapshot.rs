@@ -1,6 +1,6 @@
 //! All that a render needs, copied out of the world: immutable, cheap to clone, independent of the world's future.
 
-use crate::{accelerate::Geometry, render::Interior};
+use crate::{accelerate::Geometry, extract::Ceiling, render::Interior};
 use glam::DVec3;
 use snell_components::{
     color::Rgb,
@@ -21,6 +21,8 @@ pub struct Snapshot {
     pub inside: Interior,
     /// How the picture is taken.
     pub settings: Settings,
+    /// The most that rays can bring, if the settings promise an error and the scene tells a limit.
+    pub ceiling: Option<Arc<Ceiling>>,
     /// What rays meet.
     pub geometry: Arc<Geometry>,
     /// What objects are made of.

@@ -98,6 +98,10 @@ impl Lamp for ConeLight {
         let intensity = self.intensity * share;
         Some(Illumination { to_light, distance: 1.0, intensity, shadows: self.shadows })
     }
+
+    fn brightest(&self) -> Option<Rgb> {
+        Some(self.intensity)
+    }
 }
 
 #[cfg(test)]

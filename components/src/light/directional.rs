@@ -53,4 +53,8 @@ impl Lamp for DirectionalLight {
             shadows: self.shadows,
         })
     }
+
+    fn brightest(&self) -> Option<Rgb> {
+        Some(self.intensity)
+    }
 }

@@ -156,6 +156,14 @@ impl Lamp for PackedDisk {
         Some(Illumination { to_light, distance: 1.0, intensity, shadows: self.light.shadows })
     }
 
+    fn brightest(&self) -> Option<Rgb> {
+        match self.light.emission {
+            Emission::Even => Some(self.light.intensity),
+            // A sample close to the point grows without limit.
+            Emission::Radiant => None,
+        }
+    }
+
     fn sampling(&self) -> Option<Sampling> {
         let error = self.light.error * self.light.intensity.max_element();
         (self.area > 0.0).then_some(Sampling { error, most: self.light.samples })

@@ -34,6 +34,12 @@ pub trait Lamp: Send + Sync + 'static {
     /// that part does not shine. Lamps without area ignore `sample`.
     fn illuminate(&self, point: DVec3, sample: DVec2) -> Option<Illumination>;
 
+    /// The most that [`Lamp::illuminate`] can give as intensity, at any point and for any sample; none if there is no
+    /// limit, or none is known. Rays are cut by an error only where all lamps know theirs.
+    fn brightest(&self) -> Option<Rgb> {
+        None
+    }
+
     /// How finely the lamp is sampled; none for lamps without area, of which one sample tells all.
     fn sampling(&self) -> Option<Sampling> {
         None

@@ -53,4 +53,8 @@ impl Lamp for PointLight {
             shadows: self.shadows,
         })
     }
+
+    fn brightest(&self) -> Option<Rgb> {
+        Some(self.intensity)
+    }
 }

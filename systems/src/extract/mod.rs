@@ -2,19 +2,21 @@
 //!
 //! Each part of the [`Snapshot`] is kept and made again only when what it shows changed.
 
+mod ceiling;
 mod error;
 mod lights;
 mod materials;
 mod spectrum;
 mod view;
 
+pub use ceiling::Ceiling;
 pub use error::SceneError;
 pub use lights::{PackedLamps, gather_lights, pack_lights, unpack_lights};
 pub use materials::{PackedTexture, gather_materials, pack_textures, unpack_textures};
 
 use crate::{
     accelerate::Scenery,
-    render::Interior,
+    render::{Interior, beyond_depth},
     snapshot::{Lights, Materials, Snapshot},
 };
 use bevy_ecs::prelude::*;
@@ -85,11 +87,18 @@ pub fn extract(
         let mut left_out: Vec<_> = scenery.left_out.iter().map(|(entity, why)| (shown(*entity), why.clone())).collect();
         left_out.sort();
         let view = view::view(&camera, &placed.0)?;
+        // Only a render that promises an error needs it.
+        let ceiling = || {
+            let beyond_depth = beyond_depth(settings.background);
+            Ceiling::of(&settings, &parts.materials, &parts.lights, beyond_depth).map(Arc::new)
+        };
+        let ceiling = if settings.error > 0.0 { ceiling() } else { None };
         let inside = Interior::around(view.eye, &scenery.geometry, &parts.materials);
         Ok(Arc::new(Snapshot {
             view,
             inside,
             settings: settings.clone(),
+            ceiling,
             geometry: scenery.geometry.clone(),
             materials: parts.materials.clone(),
             lights: parts.lights.clone(),

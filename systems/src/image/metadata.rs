@@ -109,7 +109,7 @@ mod tests {
         assert_eq!(told.get(key::HASH), Some(frame.picture.hash().as_str()));
         assert!(told.get(key::COUNTS).is_some_and(|counts| counts.contains(r#""primary":7"#)));
         let settings = told.get(key::SETTINGS).unwrap_or_default();
-        assert!(settings.starts_with("(width: 4, height: 3, depth: 8, antialias: Off, shadows: true, "), "{settings}");
+        assert!(settings.starts_with("(width: 4, height: 3, depth: 8, antialias: Off, grid: 4, "), "{settings}");
         assert!(settings.contains("background: (0.0, 0.0, 0.0)") && settings.contains("cutoff: 1e-7"), "{settings}");
     }
 }

@@ -3,6 +3,8 @@
 //! A pixel is a pure function of the snapshot and its coordinates, so neither the number of threads nor the size or
 //! order of tiles nor the region can change a bit of it.
 
+mod antialias;
+mod budget;
 mod counts;
 mod footprint;
 mod interior;
@@ -21,4 +23,5 @@ pub use optics::{fresnel, reflect, refract};
 pub use picture::{Picture, Region};
 pub use sampler::Key;
 pub use tile::{Frame, OnTile, Options, Progress, Stop, Tile, render};
+pub(crate) use trace::beyond_depth;
 pub use trace::{pixel, pixel_observed};

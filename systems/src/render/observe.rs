@@ -8,10 +8,15 @@ use snell_components::{color::Rgb, light::Illumination, space::Ray};
 /// the light is added up. `()` is told nothing and costs nothing.
 ///
 /// The light of a ray through the pixel is the sum, in this order, of `weight * light` over all calls of
-/// [`Observer::added`] since [`Observer::sample`]; the pixel is the mean over these rays.
+/// [`Observer::added`] since [`Observer::sample`]; the pixel is the sum, in this order, of the light of a ray times its
+/// share over all calls of [`Observer::shared`].
 pub trait Observer {
     /// The tree of another ray through the pixel begins.
     fn sample(&mut self) {}
+
+    /// The light of a ray through the pixel, by its number from zero up, is added to the pixel times a share; a ray may
+    /// be added several times.
+    fn shared(&mut self, _sample: u32, _share: f64) {}
 
     /// A ray is to be traced, after those that are put forward later.
     fn put_forward(&mut self, _ray: &Forward<'_>) {}

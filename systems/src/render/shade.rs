@@ -2,6 +2,7 @@
 
 use super::{
     Counts, Key,
+    budget::lamp_error,
     interior::{self, Interior, Sides},
     observe::{Look, Observer},
     optics,
@@ -58,9 +59,10 @@ impl<'a> Point<'a> {
         Self { snapshot, accelerator, direction, travelled, surface, material, entering, interior, key }
     }
 
-    /// Sum of the ambient, diffuse and highlight terms.
+    /// Sum of the ambient, diffuse and highlight terms; `weight` is what it is multiplied by in the pixel.
     pub(super) fn local<O: Observer>(
         &self,
+        weight: Rgb,
         footprint: impl FnOnce() -> Footprint,
         counts: &mut Counts,
         observer: &mut O,
@@ -72,11 +74,13 @@ impl<'a> Point<'a> {
             let (factor, light) = match *effect {
                 Effect::Ambient(strength) => (strength * *color, self.snapshot.lights.ambient),
                 Effect::Diffuse(strength) => {
-                    (strength * *color, self.over_lights(counts, observer, |light| light.intensity * light.cosine))
+                    let factor = strength * *color;
+                    let term = |light: &Arriving| light.intensity * light.cosine;
+                    (factor, self.over_lights(weight * factor, counts, observer, term))
                 }
                 Effect::Glossy { diffuse, highlight, exponent } => {
                     let color = *color;
-                    let light = self.over_lights(counts, observer, |light| {
+                    let light = self.over_lights(weight, counts, observer, |light| {
                         // Where the mirrored light points away from the viewer there is no highlight, whatever the
                         // exponent.
                         let mirrored = optics::reflect(-light.direction, self.surface.shading_normal);
@@ -98,8 +102,14 @@ impl<'a> Point<'a> {
         self.material.color_at(&TexturePoint { uv: self.surface.uv, point: self.surface.point, footprint })
     }
 
-    /// Sum of a term over the lights that reach the point.
-    fn over_lights<O: Observer>(&self, counts: &mut Counts, observer: &mut O, term: impl Fn(&Arriving) -> Rgb) -> Rgb {
+    /// Sum of a term over the lights that reach the point; `weight` is what it is multiplied by in the pixel.
+    fn over_lights<O: Observer>(
+        &self,
+        weight: Rgb,
+        counts: &mut Counts,
+        observer: &mut O,
+        term: impl Fn(&Arriving) -> Rgb,
+    ) -> Rgb {
         let start = self.surface.departure(self.surface.normal, self.travelled);
         let mut sum = Rgb::ZERO;
         for (lamp, n) in self.snapshot.lights.lamps.iter().zip(0..) {
@@ -114,7 +124,12 @@ impl<'a> Point<'a> {
             };
             let light = match lamp.sampling() {
                 None => one(DVec2::ZERO).unwrap_or(Rgb::ZERO),
-                Some(sampling) => mean_over(sampling, self.key.child(n), one),
+                Some(sampling) => {
+                    let error = lamp_error(self.snapshot, weight).unwrap_or(sampling.error);
+                    let (mean, reached) = mean_over(Sampling { error, ..sampling }, self.key.child(n), one);
+                    counts.undersampled += u64::from(!reached);
+                    mean
+                }
             };
             sum += light;
             observer.lamp(n, light);
@@ -216,12 +231,12 @@ const BLOCK: u32 = 16;
 /// Mean of a term over a lamp with an area.
 ///
 /// Blocks of samples are taken until the standard error of their mean, from the spread of the blocks' means, is below
-/// the error asked for. If the first block is all dark, the lamp is taken to be hidden: what shows less than a sixteenth
-/// of it may be missed.
-fn mean_over(sampling: Sampling, key: Key, mut one: impl FnMut(DVec2) -> Option<Rgb>) -> Rgb {
+/// the error asked for, or there may be no more; told with the mean is whether the error was reached. If the first block
+/// is all dark, the lamp is taken to be hidden: what shows less than a sixteenth of it may be missed.
+fn mean_over(sampling: Sampling, key: Key, mut one: impl FnMut(DVec2) -> Option<Rgb>) -> (Rgb, bool) {
     let (mut sum, mut squares) = (Rgb::ZERO, Rgb::ZERO);
     let mut blocks = 0;
-    let mut dark = true;
+    let (mut dark, mut reached) = (true, false);
     while blocks * BLOCK < sampling.most {
         let len = BLOCK.min(sampling.most - blocks * BLOCK);
         let mut block = Rgb::ZERO;
@@ -238,11 +253,12 @@ fn mean_over(sampling: Sampling, key: Key, mut one: impl FnMut(DVec2) -> Option<
         let n = f64::from(blocks);
         // Of the mean of n blocks; squared on both sides.
         let variance = ((squares - sum * sum / n) / (n * (n - 1.0))).max_element();
-        if dark || blocks >= 3 && variance <= sampling.error * sampling.error {
+        reached = dark || blocks >= 3 && variance <= sampling.error * sampling.error;
+        if reached {
             break;
         }
     }
-    sum / f64::from(blocks)
+    (sum / f64::from(blocks), reached)
 }
 
 /// A light at a point, as the terms need it.

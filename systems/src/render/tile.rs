@@ -1,6 +1,6 @@
 //! The picture in tiles, drawn in parallel; stopping, progress.
 
-use super::{Counts, Picture, Region, pixel};
+use super::{Counts, Picture, Region, antialias::Pixels};
 use crate::{accelerate::Accelerator, snapshot::Snapshot};
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use rayon::prelude::*;
@@ -152,18 +152,19 @@ fn tiles(region: Region, edge: u32) -> Vec<Region> {
 fn draw(snapshot: &Snapshot, region: Region, options: &Options<'_>) -> (Tile, Counts, u32) {
     let mut pixels = vec![[0.0; 3]; region.area()];
     let mut counts = Counts::default();
+    let observer = &mut ();
+    let mut drawing = Pixels::new(snapshot, options.accelerator, &mut counts, observer);
     let mut rows = 0;
     for (y, row) in pixels.chunks_mut(region.width as usize).enumerate() {
         if options.stop.is_stopped() {
             break;
         }
         for (x, out) in row.iter_mut().enumerate() {
-            let (x, y) = (region.x + x as u32, region.y + y as u32);
-            let light = pixel(snapshot, x, y, options.accelerator, &mut counts).as_vec3();
+            let light = drawing.light(region.x + x as u32, region.y + y as u32).as_vec3();
             if light.is_finite() {
                 *out = light.to_array();
             } else {
-                counts.not_finite += 1;
+                drawing.counts.not_finite += 1;
             }
         }
         rows += 1;

@@ -2,7 +2,9 @@
 
 use super::{
     Counts, Key,
-    footprint::{Beside, Neighbours},
+    antialias::Pixels,
+    budget::Cut,
+    footprint::Beside,
     interior::{self, Interior, Sides},
     observe::{Added, Dropped, Forward, Observer, Traced, Way},
     optics,
@@ -17,25 +19,8 @@ use smallvec::SmallVec;
 use snell_components::{
     color::Rgb,
     primitive::{Cost, Surface},
-    settings::Antialias,
     space::Ray,
 };
-
-/// Where rays pass through a pixel, from its centre, in pixels.
-fn samples(antialias: Antialias) -> &'static [(f64, f64)] {
-    match antialias {
-        Antialias::Off => &[(0.0, 0.0)],
-        Antialias::Four => &[(-0.25, -0.25), (-0.25, 0.25), (0.25, -0.25), (0.25, 0.25)],
-    }
-}
-
-/// How far apart those are, in pixels.
-fn spacing(antialias: Antialias) -> f64 {
-    match antialias {
-        Antialias::Off => 1.0,
-        Antialias::Four => 0.5,
-    }
-}
 
 /// The linear light of a pixel: a pure function of its arguments but for the counts.
 #[must_use]
@@ -53,23 +38,7 @@ pub fn pixel_observed<O: Observer>(
     counts: &mut Counts,
     observer: &mut O,
 ) -> Rgb {
-    let settings = &snapshot.settings;
-    let samples = samples(settings.antialias);
-    let mut sum = Rgb::ZERO;
-    for ((dx, dy), n) in samples.iter().zip(0..) {
-        let (px, py) = (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
-        let ray = snapshot.view.ray(px, py, settings.width, settings.height);
-        let key = Key::of_pixel(x, y, n);
-        counts.primary += 1;
-        observer.sample();
-        sum += if snapshot.materials.any_filtered {
-            let beside = Neighbours::start(snapshot, px, py, spacing(settings.antialias));
-            light_along(snapshot, ray, beside, key, accelerator, counts, observer)
-        } else {
-            light_along(snapshot, ray, (), key, accelerator, counts, observer)
-        };
-    }
-    sum / samples.len() as f64
+    Pixels::new(snapshot, accelerator, counts, observer).light(x, y)
 }
 
 /// A ray yet to be traced.
@@ -87,11 +56,11 @@ struct Pending<B> {
     key: Key,
 }
 
-/// The light that comes back along a ray.
+/// The light that comes back along a ray, and the object it meets first.
 ///
 /// The tree of rays is walked with a stack of its own, the mirrored branch of a surface before the transmitted one, and
 /// every contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
-fn light_along<B: Beside, O: Observer>(
+pub(super) fn light_along<B: Beside, O: Observer>(
     snapshot: &Snapshot,
     ray: Ray,
     beside: B,
@@ -99,9 +68,11 @@ fn light_along<B: Beside, O: Observer>(
     accelerator: Accelerator,
     counts: &mut Counts,
     observer: &mut O,
-) -> Rgb {
+) -> (Rgb, Option<u32>) {
     let Snapshot { settings, materials, .. } = snapshot;
     let mut sum = Rgb::ZERO;
+    let mut first = None;
+    let mut cut = Cut::of(snapshot);
     let mut pending: SmallVec<[Pending<B>; 8]> = SmallVec::new();
     let interior = snapshot.inside.clone();
     let (way, weight) = (Way::Camera, Rgb::ONE);
@@ -132,8 +103,11 @@ fn light_along<B: Beside, O: Observer>(
             pending.push(Pending { ray, beside, weight, depth, interior, wavelength, key });
             continue;
         }
+        if depth == 0 {
+            first = Some(met.object);
+        }
         let beside = beside.meet(&point, &met);
-        let local = point.local(|| B::footprint(&beside, &point.surface), counts, observer);
+        let local = point.local(weight, || B::footprint(&beside, &point.surface), counts, observer);
         sum += weight * local;
         observer.added(Added::Surface, weight, local);
 
@@ -150,7 +124,7 @@ fn light_along<B: Beside, O: Observer>(
                 sum += weight * beyond;
                 observer.dropped(&forward, Dropped::TooDeep);
                 observer.added(Added::BeyondDepth, weight, beyond);
-            } else if weight.max_element() < settings.cutoff {
+            } else if cut.drops(weight, settings.depth - depth - 1) {
                 counts.cut += 1;
                 observer.dropped(&forward, Dropped::Cut);
             } else {
@@ -169,12 +143,13 @@ fn light_along<B: Beside, O: Observer>(
             }
         }
     }
-    sum
+    cut.tell(counts);
+    (sum, first)
 }
 
 /// What a ray beyond the depth limit is taken to bring: grey, with the mean brightness of the background's components.
 /// Black would make deep reflections darker than what they mirror.
-fn beyond_depth(background: Rgb) -> Rgb {
+pub(crate) fn beyond_depth(background: Rgb) -> Rgb {
     Rgb::splat((background.x + background.y + background.z) / 3.0)
 }
 

@@ -136,14 +136,14 @@ const BAD_SCENES: &[Bad] = &[
             "1:37: settings.width: expected a whole number from 1 to 65536, found `0`",
             "1:48: settings.height: expected a whole number from 1 to 65536, found `70000`",
             "1:62: settings.depth: expected a whole number from 0 to 100000, found `1.5`",
-            "1:78: settings.antialias: expected `Off` or `Four`, found `Fuor`; did you mean `Four`?",
+            "1:78: settings.antialias: expected `Off`, `Four`, `Grid` or `Adaptive`, found `Fuor`; did you mean `Four`?",
             "1:93: settings.shadows: expected `true` or `false`, found `yes`",
         ],
     ),
     (
         "Scene(version: 1, settings: (widht: 5, background: (1, 2), cutoff: -1, depth: -1))",
         &[
-            "1:30: settings: unknown field `widht`; did you mean `width`? Fields are `width`, `height`, `depth`, `antialias`, `shadows`, `refraction`, `background` and `cutoff`",
+            "1:30: settings: unknown field `widht`; did you mean `width`? Fields are `width`, `height`, `depth`, `antialias`, `grid`, `subdivisions`, `contrast`, `shadows`, `refraction`, `background`, `cutoff` and `error`",
             r##"1:52: settings.background: expected a colour: one number, three numbers or "#rrggbb", each of at least 0, found `(1, 2)`"##,
             "1:68: settings.cutoff: expected a number from 0 to 1, found `-1`",
             "1:79: settings.depth: expected a whole number from 0 to 100000, found `-1`",
@@ -153,8 +153,8 @@ const BAD_SCENES: &[Bad] = &[
         r#"Scene(version: 1, settings: (width: 5000000000, antialias: "Four", gamma: 2))"#,
         &[
             "1:37: settings.width: expected a whole number from 1 to 65536, found `5000000000`",
-            r#"1:60: settings.antialias: expected `Off` or `Four`, found `"Four"`"#,
-            "1:68: settings: unknown field `gamma`; fields are `width`, `height`, `depth`, `antialias`, `shadows`, `refraction`, `background` and `cutoff`",
+            r#"1:60: settings.antialias: expected `Off`, `Four`, `Grid` or `Adaptive`, found `"Four"`"#,
+            "1:68: settings: unknown field `gamma`; fields are `width`, `height`, `depth`, `antialias`, `grid`, `subdivisions`, `contrast`, `shadows`, `refraction`, `background`, `cutoff` and `error`",
         ],
     ),
     (
