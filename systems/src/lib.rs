@@ -1,7 +1,8 @@
 //! What happens to a scene, in order.
 //!
 //! scene text → [`load`] → `World` → [`transform`] → [`accelerate`] → [`extract`] → [`snapshot::Snapshot`] → [`render`]
-//! → [`image`] → file. [`pipeline`] holds the order; [`registry`] the open set of components.
+//! → [`image`] → file. [`compare`] tells how far two pictures are apart; [`pipeline`] holds the order, [`registry`] the open
+//! set of components.
 
 pub mod pipeline;
 
@@ -20,3 +21,5 @@ pub mod snapshot;
 pub mod render;
 
 pub mod image;
+
+pub mod compare;
