@@ -1,34 +1,23 @@
 //! Building by the surface-area heuristic over bins (Wald: On fast Construction of SAH-based Bounding Volume
 //! Hierarchies, 2007), eight children at once.
 //!
-//! The result depends on the boxes and their order alone: bins are merged by minimum, maximum and count, subtrees are
-//! joined in order, and the number of threads only decides who does the work.
+//! The result depends on the boxes and their order alone: bins are merged by minimum, maximum and count, runs are
+//! partitioned in pieces of fixed size, subtrees are joined in order; the number of threads only decides who does the
+//! work.
 
+use super::bins::{BINS, Bins, Box4, Item, Scale, cheapest};
 use super::{Box32, Bvh, Child, MAX_LEAF, MAX_LEN, Node, WIDTH};
 use rayon::prelude::*;
-
-const BINS: usize = 16;
+use smallvec::SmallVec;
 
 /// From this many things on, subtrees are built in parallel.
 const PARALLEL: usize = 4096;
 
+/// From this many things on, each step of a split is done in parallel, too, in pieces of [`PARALLEL`].
+const LARGE: usize = 4 * PARALLEL;
+
 /// Below this depth every split halves the count, so the depth stays near `log2 n` whatever the input.
 const MAX_SAH_DEPTH: usize = 40;
-
-/// One thing to be sorted into the tree.
-#[derive(Clone, Copy)]
-struct Item {
-    bounds: Box32,
-    index: u32,
-}
-
-/// A run of items, and what is known of it.
-#[derive(Clone, Copy)]
-struct Span {
-    first: usize,
-    len: usize,
-    bounds: Box32,
-}
 
 impl Bvh {
     /// Builds a tree with at most `leaf` (1 to [`MAX_LEAF`]) things in a leaf.
@@ -39,209 +28,333 @@ impl Bvh {
     pub fn build(boxes: impl ExactSizeIterator<Item = Box32>, leaf: usize) -> Self {
         assert!(boxes.len() <= MAX_LEN, "a tree holds at most {MAX_LEN} things");
         let leaf = leaf.clamp(1, MAX_LEAF);
-        let mut items: Vec<Item> = boxes.enumerate().map(|(i, bounds)| Item { bounds, index: i as u32 }).collect();
-        let nodes = if items.is_empty() { vec![] } else { subtree(&mut items, 0, leaf, 0) };
-        Self { nodes, order: items.iter().map(|item| item.index).collect() }
+        let mut items: Vec<Item> = boxes.enumerate().map(|(i, bounds)| Item::new(&bounds, i)).collect();
+        let mut nodes = vec![];
+        if !items.is_empty() {
+            let whole = Span { first: 0, len: items.len(), bounds: bounds_of(&items) };
+            let tree = subtree(&mut items, whole, leaf, 0);
+            nodes.reserve_exact(tree.count());
+            tree.flatten(&mut nodes);
+        }
+        Self { nodes, order: items.iter().map(Item::index).collect() }
     }
 }
 
-/// Nodes of the tree over `items`, root first; `offset` is the position of `items` in the whole.
-fn subtree(items: &mut [Item], offset: usize, leaf: usize, depth: usize) -> Vec<Node> {
-    let spans = children(items, leaf, depth);
+/// A run of items, and the box around them.
+#[derive(Clone, Copy)]
+struct Span {
+    first: usize,
+    len: usize,
+    bounds: Box4,
+}
+
+/// A part of the tree: nodes, root first, and the parts that hang below its root.
+struct Part {
+    nodes: Vec<Node>,
+    below: Vec<(usize, Self)>,
+}
+
+impl Part {
+    fn count(&self) -> usize {
+        self.nodes.len() + self.below.iter().map(|(_, part)| part.count()).sum::<usize>()
+    }
+
+    /// Appends all nodes in depth-first order.
+    fn flatten(self, nodes: &mut Vec<Node>) {
+        let shift = nodes.len();
+        nodes.extend(self.nodes.into_iter().map(|mut node| {
+            node.child = node.child.map(|child| child.shifted(shift));
+            node
+        }));
+        for (lane, part) in self.below {
+            nodes[shift].child[lane] = Child::node(nodes.len());
+            part.flatten(nodes);
+        }
+    }
+}
+
+/// The tree over a run, which is sorted on the way.
+fn subtree(items: &mut [Item], whole: Span, leaf: usize, depth: usize) -> Part {
+    if whole.len < PARALLEL {
+        let mut nodes = Vec::with_capacity(whole.len / leaf);
+        grow(&mut nodes, items, whole, leaf, depth, &mut Bins::new());
+        return Part { nodes, below: vec![] };
+    }
+    let spans = children(items, whole, leaf, depth, &mut Bins::new());
+    let mut work = vec![];
+    let mut rest = items;
+    for (lane, span) in spans.iter().enumerate() {
+        let (mine, others) = rest.split_at_mut(span.len);
+        rest = others;
+        if span.len > leaf {
+            work.push((lane, mine, *span));
+        }
+    }
+    let below = work.into_par_iter().map(|(lane, items, span)| (lane, subtree(items, span, leaf, depth + 1))).collect();
+    Part { nodes: vec![node(&spans, leaf)], below }
+}
+
+/// Appends the tree over a run; returns the number of its root.
+fn grow(nodes: &mut Vec<Node>, items: &mut [Item], whole: Span, leaf: usize, depth: usize, bins: &mut Bins) -> usize {
+    let spans = children(items, whole, leaf, depth, bins);
+    let root = nodes.len();
+    nodes.push(node(&spans, leaf));
+    for (lane, span) in spans.iter().enumerate() {
+        if span.len > leaf {
+            let first = span.first - whole.first;
+            let child = grow(nodes, &mut items[first..first + span.len], *span, leaf, depth + 1, bins);
+            nodes[root].child[lane] = Child::node(child);
+        }
+    }
+    root
+}
+
+/// A node whose leaves are in place, but not its other children.
+fn node(spans: &[Span], leaf: usize) -> Node {
     let mut node = Node::EMPTY;
     for (lane, span) in spans.iter().enumerate() {
         for axis in 0..3 {
             node.min[axis][lane] = span.bounds.min[axis];
             node.max[axis][lane] = span.bounds.max[axis];
         }
-    }
-
-    // Split the items among the children that are not leaves and build each.
-    let mut work = vec![];
-    let (mut rest, mut at) = (items, 0);
-    for (lane, span) in spans.iter().enumerate() {
-        let (mine, others) = rest.split_at_mut(span.len);
         if span.len <= leaf {
-            node.child[lane] = Child::leaf(offset + at, span.len);
-        } else {
-            work.push((lane, mine, offset + at));
+            node.child[lane] = Child::leaf(span.first, span.len);
         }
-        (rest, at) = (others, at + span.len);
     }
-    let build = |(lane, items, offset): (usize, &mut [Item], usize)| (lane, subtree(items, offset, leaf, depth + 1));
-    let total: usize = spans.iter().map(|span| span.len).sum();
-    let built: Vec<(usize, Vec<Node>)> = if total >= PARALLEL {
-        work.into_par_iter().map(build).collect()
-    } else {
-        work.into_iter().map(build).collect()
-    };
-
-    let mut nodes = vec![node];
-    for (lane, subnodes) in built {
-        let shift = nodes.len();
-        nodes[0].child[lane] = Child::node(shift);
-        nodes.extend(subnodes.into_iter().map(|mut node| {
-            node.child = node.child.map(|child| child.shifted(shift));
-            node
-        }));
-    }
-    nodes
+    node
 }
 
-/// Partitions `items` into two to eight runs, in order: the run that costs most is split until there are eight.
-fn children(items: &mut [Item], leaf: usize, depth: usize) -> Vec<Span> {
-    let mut spans = vec![Span { first: 0, len: items.len(), bounds: bounds_of(items) }];
+/// Partitions a run into two to eight, in order: the run that costs most is split until there are eight.
+fn children(items: &mut [Item], whole: Span, leaf: usize, depth: usize, bins: &mut Bins) -> SmallVec<[Span; WIDTH]> {
+    let mut spans: SmallVec<[Span; WIDTH]> = SmallVec::new();
+    spans.push(whole);
     while spans.len() < WIDTH {
         let cost = |span: &Span| span.bounds.half_area() * span.len as f64;
-        let widest = spans
-            .iter()
-            .enumerate()
-            .filter(|(_, span)| span.len > leaf)
-            // On equal cost the first: `max_by` would take the last.
-            .fold(None, |best: Option<(usize, f64)>, (i, span)| match best {
-                Some((_, most)) if cost(span) <= most => best,
-                _ => Some((i, cost(span))),
-            });
-        let Some((i, _)) = widest else { break };
-        let Span { first, len, .. } = spans[i];
-        let run = &mut items[first..first + len];
-        let left = if depth < MAX_SAH_DEPTH { split(run) } else { halve(run) };
-        let (a, b) = run.split_at(left);
-        spans[i] = Span { first, len: left, bounds: bounds_of(a) };
-        spans.insert(i + 1, Span { first: first + left, len: len - left, bounds: bounds_of(b) });
+        let mut most: Option<(usize, f64)> = None;
+        for (i, span) in spans.iter().enumerate().filter(|(_, span)| span.len > leaf) {
+            // On equal cost the first.
+            if most.is_none_or(|(_, most)| cost(span) > most) {
+                most = Some((i, cost(span)));
+            }
+        }
+        let Some((i, _)) = most else { break };
+        let span = spans[i];
+        let run = &mut items[span.first - whole.first..][..span.len];
+        let [a, b] = if depth < MAX_SAH_DEPTH { split(run, bins) } else { halve(run) };
+        spans[i] = Span { first: span.first, len: a.0, bounds: a.1 };
+        spans.insert(i + 1, Span { first: span.first + a.0, len: b.0, bounds: b.1 });
     }
     spans
 }
 
-fn bounds_of(items: &[Item]) -> Box32 {
-    let fold = |items: &[Item]| items.iter().fold(Box32::EMPTY, |b, item| b.union(&item.bounds));
-    if items.len() < PARALLEL {
-        fold(items)
+/// The sides of a split: how many things, and the box around them.
+type Sides = [(usize, Box4); 2];
+
+/// Folds over items: in pieces and in parallel if there are many.
+fn fold<T: Copy + Send + Sync>(
+    items: &[Item],
+    none: T,
+    add: impl Fn(T, &Item) -> T + Sync,
+    merge: impl Fn(T, T) -> T + Send + Sync,
+) -> T {
+    if items.len() < LARGE {
+        return items.iter().fold(none, add);
+    }
+    items.par_chunks(PARALLEL).map(|piece| piece.iter().fold(none, &add)).reduce(|| none, merge)
+}
+
+fn bounds_of(items: &[Item]) -> Box4 {
+    fold(items, Box4::EMPTY, |b, item| b.union(&item.0), |a, b| a.union(&b))
+}
+
+/// The box around the centres.
+fn reach_of(items: &[Item]) -> Box4 {
+    let add = |b: Box4, item: &Item| {
+        let center = item.center();
+        b.union(&Box4 { min: center, max: center })
+    };
+    fold(items, Box4::EMPTY, add, |a, b| a.union(&b))
+}
+
+/// Partitions by the cheapest plane between bins; neither side is empty.
+fn split(items: &mut [Item], bins: &mut Bins) -> Sides {
+    let count = (4 + items.len() / 8).min(BINS);
+    let scale = Scale::over(&reach_of(items), count);
+    if items.len() < LARGE {
+        bins.clear(count);
+        bins.fill(items, &scale);
     } else {
-        items.par_chunks(PARALLEL).map(fold).reduce(|| Box32::EMPTY, |a, b| a.union(&b))
+        let fill = |piece: &[Item]| {
+            let mut bins = Bins::new();
+            bins.fill(piece, &scale);
+            bins
+        };
+        *bins = items.par_chunks(PARALLEL).map(fill).reduce(Bins::new, |a, b| a.merged(&b));
     }
+    let Some((axis, plane)) = cheapest(bins, count) else { return halve(items) };
+    let along = scale.along(axis);
+    partition(items, |item| along.bins_of([item.center()[axis]; 4])[0] <= plane);
+    [bins.sum(axis, 0..plane + 1), bins.sum(axis, plane + 1..count)]
 }
 
-#[derive(Clone, Copy)]
-struct Bin {
-    bounds: Box32,
-    count: usize,
-}
-
-type Bins = [[Bin; BINS]; 3];
-
-const EMPTY_BINS: Bins = [[Bin { bounds: Box32::EMPTY, count: 0 }; BINS]; 3];
-
-/// Maps centres along an axis to bins.
-#[derive(Clone, Copy)]
-struct Scale {
-    low: f32,
-    per_unit: f32,
-}
-
-impl Scale {
-    #[inline]
-    fn bin(&self, center: f32) -> usize {
-        // Saturates: not-a-number gives 0, overflow the last bin.
-        (((center - self.low) * self.per_unit) as usize).min(BINS - 1)
+/// Moves the items that belong left to the front; returns how many they are.
+fn partition(items: &mut [Item], left: impl Fn(&Item) -> bool + Sync) -> usize {
+    if items.len() < LARGE {
+        return partition_piece(items, &left);
     }
-}
-
-/// Partitions by the cheapest plane between bins; returns how many go left, never none or all.
-fn split(items: &mut [Item]) -> usize {
-    let centers = |items: &[Item]| {
-        items.iter().fold(Box32::EMPTY, |b, item| {
-            let c = core::array::from_fn(|axis| item.bounds.center2(axis));
-            b.union(&Box32 { min: c, max: c })
-        })
-    };
-    let parallel = items.len() >= 4 * PARALLEL;
-    let reach = if parallel {
-        items.par_chunks(PARALLEL).map(centers).reduce(|| Box32::EMPTY, |a, b| a.union(&b))
-    } else {
-        centers(items)
-    };
-    let scales: [Scale; 3] = core::array::from_fn(|axis| {
-        let extent = reach.max[axis] - reach.min[axis];
-        let per_unit = BINS as f32 / extent;
-        Scale { low: reach.min[axis], per_unit: if per_unit.is_finite() { per_unit } else { 0.0 } }
-    });
-
-    let fill = |items: &[Item]| {
-        let mut bins = EMPTY_BINS;
-        for item in items {
-            for axis in 0..3 {
-                let bin = &mut bins[axis][scales[axis].bin(item.bounds.center2(axis))];
-                bin.bounds = bin.bounds.union(&item.bounds);
-                bin.count += 1;
-            }
+    let counts: Vec<usize> = items.par_chunks_mut(PARALLEL).map(|piece| partition_piece(piece, &left)).collect();
+    let middle = counts.iter().sum();
+    // What stands on the wrong side, as runs; as many items on one side as on the other.
+    let pieces = || counts.iter().enumerate().map(|(i, count)| (i * PARALLEL, i * PARALLEL + count));
+    let end = items.len();
+    let (front, back) = items.split_at_mut(middle);
+    let mut belong_right = pieces().map(|(start, split)| (split, (start + PARALLEL).min(end).min(middle)));
+    let mut belong_left = pieces().map(|(start, split)| (start.max(middle), split));
+    let (mut here, mut there) = ((0, 0), (0, 0));
+    loop {
+        while here.0 >= here.1 {
+            let Some(next) = belong_right.next() else { return middle };
+            here = next;
         }
-        bins
-    };
-    let bins = if parallel { items.par_chunks(PARALLEL).map(fill).reduce(|| EMPTY_BINS, merge) } else { fill(items) };
-
-    match cheapest(&bins) {
-        Some((axis, plane)) => {
-            let scale = scales[axis];
-            partition(items, |item| scale.bin(item.bounds.center2(axis)) <= plane)
+        while there.0 >= there.1 {
+            let Some(next) = belong_left.next() else { return middle };
+            there = next;
         }
-        None => halve(items),
+        let len = (here.1 - here.0).min(there.1 - there.0);
+        let there_in_back = there.0 - middle;
+        front[here.0..][..len].swap_with_slice(&mut back[there_in_back..][..len]);
+        here.0 += len;
+        there.0 += len;
     }
 }
 
-fn merge(mut a: Bins, b: Bins) -> Bins {
-    for (a, b) in a.iter_mut().flatten().zip(b.iter().flatten()) {
-        a.bounds = a.bounds.union(&b.bounds);
-        a.count += b.count;
-    }
-    a
-}
-
-/// The axis and the last bin on the left of the split with the least expected cost; none if all centres share a bin.
-fn cheapest(bins: &Bins) -> Option<(usize, usize)> {
-    let mut best: Option<(f64, usize, usize)> = None;
-    for (axis, bins) in bins.iter().enumerate() {
-        let mut right_costs = [0.0; BINS];
-        let mut right = Bin { bounds: Box32::EMPTY, count: 0 };
-        for plane in (1..BINS).rev() {
-            right = Bin { bounds: right.bounds.union(&bins[plane].bounds), count: right.count + bins[plane].count };
-            right_costs[plane - 1] =
-                if right.count == 0 { f64::NAN } else { right.bounds.half_area() * right.count as f64 };
-        }
-        let mut left = Bin { bounds: Box32::EMPTY, count: 0 };
-        for plane in 0..BINS - 1 {
-            left = Bin { bounds: left.bounds.union(&bins[plane].bounds), count: left.count + bins[plane].count };
-            let cost = left.bounds.half_area() * left.count as f64 + right_costs[plane];
-            // An empty side has cost NaN on the right; on the left it is skipped here.
-            if left.count > 0 && best.map_or(!cost.is_nan(), |(least, ..)| cost < least) {
-                best = Some((cost, axis, plane));
-            }
-        }
-    }
-    best.map(|(_, axis, plane)| (axis, plane))
-}
-
-/// Moves the items that belong left to the front.
-fn partition(items: &mut [Item], left: impl Fn(&Item) -> bool) -> usize {
+fn partition_piece(items: &mut [Item], left: &impl Fn(&Item) -> bool) -> usize {
     let mut end = 0;
     for i in 0..items.len() {
-        if left(&items[i]) {
-            items.swap(i, end);
-            end += 1;
-        }
+        // Swapped always: which side an item belongs to cannot be foreseen, so a branch on it would cost more.
+        items.swap(i, end);
+        end += usize::from(left(&items[end]));
     }
     end
 }
 
 /// Splits by count about the median of the widest axis; equal centres go by index, so coincident things are separated too.
-fn halve(items: &mut [Item]) -> usize {
+fn halve(items: &mut [Item]) -> Sides {
     let bounds = bounds_of(items);
     let extent = |axis: usize| f64::from(bounds.max[axis]) - f64::from(bounds.min[axis]);
     let axis = (1..3).fold(0, |widest, axis| if extent(axis) > extent(widest) { axis } else { widest });
     let middle = items.len() / 2;
     items.select_nth_unstable_by(middle, |a, b| {
-        let by_center = a.bounds.center2(axis).total_cmp(&b.bounds.center2(axis));
-        by_center.then(a.index.cmp(&b.index))
+        let by_center = a.center()[axis].total_cmp(&b.center()[axis]);
+        by_center.then(a.index().cmp(&b.index()))
     });
-    middle
+    let (left, right) = items.split_at(middle);
+    [left, right].map(|side| (side.len(), bounds_of(side)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn random(seed: &mut u64) -> f32 {
+        *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*seed >> 40) as f32 / (1u32 << 24) as f32
+    }
+
+    /// Small boxes along a spiral: dense in some places, far apart in others.
+    fn boxes(count: usize) -> Vec<Box32> {
+        let mut seed = count as u64;
+        let one = |_| {
+            let reach = random(&mut seed) * random(&mut seed);
+            let min = [0; 3].map(|_| reach * random(&mut seed));
+            Box32 { min, max: min.map(|x| x + 0.01 * reach) }
+        };
+        (0..count).map(one).collect()
+    }
+
+    fn build(boxes: &[Box32], leaf: usize, threads: usize) -> Bvh {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Bvh::build(boxes.iter().copied(), leaf))
+    }
+
+    #[test]
+    fn the_tree_is_the_same_for_any_number_of_threads() {
+        for count in [PARALLEL - 1, 3 * PARALLEL, 3 * LARGE + 5] {
+            let boxes = boxes(count);
+            let alone = build(&boxes, 4, 1);
+            for threads in [2, 5] {
+                let together = build(&boxes, 4, threads);
+                assert_eq!(alone.order, together.order);
+                assert_eq!(format!("{:?}", alone.nodes), format!("{:?}", together.nodes));
+            }
+        }
+    }
+
+    #[test]
+    fn every_thing_is_in_one_leaf_and_every_box_is_the_smallest_around_what_it_holds() {
+        for (count, leaf) in [(1, 1), (2, 1), (100, 3), (LARGE + 1, 4)] {
+            let boxes = boxes(count);
+            let tree = build(&boxes, leaf, 2);
+            let mut order = tree.order.clone();
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..count as u32));
+            let mut reached = 0;
+            let whole = check(&tree, &boxes, 0, leaf, &mut reached);
+            assert_eq!(whole, boxes.iter().fold(Box32::EMPTY, |sum, b| sum.union(b)));
+            assert_eq!(reached, count);
+        }
+    }
+
+    /// The box around all below a node, after checking each of its lanes.
+    fn check(tree: &Bvh, boxes: &[Box32], node: usize, leaf: usize, reached: &mut usize) -> Box32 {
+        let node = &tree.nodes[node];
+        let mut whole = Box32::EMPTY;
+        for lane in (0..WIDTH).filter(|&lane| node.min[0][lane] != f32::INFINITY) {
+            let child = node.child[lane];
+            let below = if child.is_leaf() {
+                assert!(child.run().len() <= leaf);
+                assert_eq!(child.run().start, *reached, "leaves follow one another");
+                *reached += child.run().len();
+                tree.order[child.run()].iter().fold(Box32::EMPTY, |sum, &i| sum.union(&boxes[i as usize]))
+            } else {
+                check(tree, boxes, child.0 as usize, leaf, reached)
+            };
+            let stored = Box32 { min: node.min.map(|of| of[lane]), max: node.max.map(|of| of[lane]) };
+            assert_eq!(stored, below);
+            whole = whole.union(&below);
+        }
+        whole
+    }
+
+    #[test]
+    fn a_partition_loses_nothing_and_leaves_nothing_on_the_wrong_side() {
+        let mut seed = 7;
+        for count in [0, 1, 2, LARGE - 1, LARGE, LARGE + PARALLEL + 1, 2 * LARGE + 17] {
+            for share in [0.0, 0.01, 0.5, 0.99, 1.0] {
+                let belongs: Vec<bool> = (0..count).map(|_| random(&mut seed) < share).collect();
+                let empty = Box32 { min: [0.0; 3], max: [0.0; 3] };
+                let mut items: Vec<Item> = (0..count).map(|i| Item::new(&empty, i)).collect();
+                let left = |item: &Item| belongs[item.index() as usize];
+                let middle = partition(&mut items, left);
+                assert_eq!(middle, belongs.iter().filter(|b| **b).count());
+                assert!(items[..middle].iter().all(left) && !items[middle..].iter().any(left));
+                let mut indices: Vec<u32> = items.iter().map(Item::index).collect();
+                indices.sort_unstable();
+                assert!(indices.into_iter().eq(0..count as u32));
+            }
+        }
+    }
+
+    #[test]
+    fn boxes_without_end_are_kept_like_others() {
+        let endless = Box32 { min: [f32::NEG_INFINITY; 3], max: [f32::INFINITY; 3] };
+        let half = Box32 { min: [f32::MIN; 3], max: [f32::INFINITY, 0.0, 1.0] };
+        let mut all = boxes(50);
+        all.extend([endless; 9]);
+        all.extend([half; 9]);
+        let tree = build(&all, 2, 1);
+        let mut order = tree.order.clone();
+        order.sort_unstable();
+        assert!(order.into_iter().eq(0..68));
+    }
 }

@@ -6,6 +6,7 @@
 //! Boxes are `f32`, rounded outward, and the traversal's own rounding is bounded on the safe side, so a walk visits
 //! every leaf whose contents an exact test would hit: the tree can cost time, never change a picture.
 
+mod bins;
 mod build;
 mod traverse;
 
@@ -54,20 +55,6 @@ impl Box32 {
             min: core::array::from_fn(|i| lower(self.min[i], other.min[i])),
             max: core::array::from_fn(|i| upper(self.max[i], other.max[i])),
         }
-    }
-
-    /// Half the surface area; `f64`, which no `f32` box overflows.
-    #[inline]
-    fn half_area(&self) -> f64 {
-        let [x, y, z] = core::array::from_fn(|i| f64::from(self.max[i]) - f64::from(self.min[i]));
-        if x < 0.0 { 0.0 } else { x * y + y * z + z * x }
-    }
-
-    /// Twice the centre along an axis.
-    #[inline]
-    fn center2(&self, axis: usize) -> f32 {
-        // Halved first: the sum of two extremes would overflow.
-        self.min[axis] * 0.5 + self.max[axis] * 0.5
     }
 }
 
