@@ -34,6 +34,7 @@ pub use snell_systems::{
     pipeline::Renderer,
     render::{Counts, Frame, Options, Picture, Progress, Region, Stop, render},
     snapshot::Snapshot,
+    why::{RayTree, why},
 };
 
 /// What a program that builds and renders scenes needs.

@@ -1,57 +1,16 @@
 //! The program on scene files: what it prints and writes, and how it ends.
 
+mod support {
+    pub(crate) mod desk;
+}
+
 use snell::{
     Region,
     cli::Stats,
     systems::image::{self, key},
 };
-use std::{
-    fs,
-    path::PathBuf,
-    process::{Command, Output},
-};
-use tempfile::TempDir;
-
-const BALL: &str = r#"Scene(version: 1, settings: (width: 64, height: 48), entities: {
-    "eye": [Camera(position: (0, 1, 5))],
-    "sun": [DirectionalLight(direction: (-1, -2, -1))],
-    "ball": [Sphere(radius: 1), Color(0.8, 0.2, 0.1), Diffuse(1)],
-})"#;
-
-/// A folder in which the program runs.
-struct Desk(TempDir);
-
-impl Desk {
-    fn new() -> Self {
-        let desk = Self(tempfile::tempdir().expect("a folder"));
-        desk.put("ball.ron", BALL);
-        desk
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.0.path().join(name)
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).expect("written");
-    }
-
-    fn command(&self, words: &str) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_snell"));
-        command.args(words.split_whitespace()).current_dir(self.0.path());
-        command
-    }
-
-    /// Exit code, output and error output.
-    fn run(&self, words: &str) -> (i32, String, String) {
-        ended(self.command(words).output().expect("started"))
-    }
-}
-
-fn ended(output: Output) -> (i32, String, String) {
-    let text = |bytes| String::from_utf8(bytes).expect("text");
-    (output.status.code().expect("not killed"), text(output.stdout), text(output.stderr))
-}
+use std::{fs, process::Command};
+use support::desk::{BALL, Desk, ended};
 
 #[test]
 fn a_scene_becomes_a_picture_of_its_name() {
@@ -133,7 +92,7 @@ fn a_failed_render_leaves_the_last_picture_as_it_was() {
     desk.put("ball.png", "precious");
     assert_eq!(desk.run("render ball.ron --region 60,0,5,1").0, 2);
     assert_eq!(fs::read_to_string(desk.path("ball.png")).expect("read"), "precious");
-    assert_eq!(fs::read_dir(desk.0.path()).expect("a folder").count(), 2);
+    assert_eq!(fs::read_dir(desk.path("")).expect("a folder").count(), 2);
 }
 
 /// Ctrl-C once the program listens to it and has worked since; where that can be seen.

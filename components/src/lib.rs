@@ -23,7 +23,7 @@
 //! | [`math`] | the only door to functions beyond `+ − × ÷ √` |
 //! | [`space`], [`transform`] | rays, bounds, placement |
 //! | [`color`] | linear RGB and the sRGB transfer curve |
-//! | [`name`], [`describe`], [`asset`] | what a thing is called, how its fields are read and written, files it refers to |
+//! | [`name`], [`describe`], [`asset`], [`written`] | what a thing is called, how its fields are read and written, files it refers to, where it stands in a file |
 //! | [`bvh`] | the bounding-volume tree, over bounds alone |
 //! | [`primitive`] | the contract every shape meets; [`shape`] holds the built-in ones |
 //! | [`material`], [`texture`], [`light`], [`camera`], [`settings`] | what the rays meet and how the picture is taken |
@@ -37,6 +37,8 @@ pub mod transform;
 pub mod color;
 
 pub mod name;
+
+pub mod written;
 
 pub mod asset;
 

@@ -21,6 +21,7 @@ pub(super) enum Command {
     Render(RenderArguments),
     Hash(HashArguments),
     Check(CheckArguments),
+    Why(WhyArguments),
 }
 
 /// Render a scene to a PNG or OpenEXR file
@@ -77,12 +78,63 @@ pub(super) struct CheckArguments {
     pub(super) scenes: Vec<PathBuf>,
 }
 
+/// Show how a pixel comes about: its tree of rays
+///
+/// Tells of every ray what it meets, what the lights do there, what it weighs and brings, and where that is written; the
+/// contributions add up to the pixel to the last bit.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  snell why scene.ron 320 240                the pixel in column 320 and row 240
+  snell why scene.ron 320 240 --svg why.svg  drawn as a tree
+  snell why scene.ron 320 240 --json         for programs")]
+pub(super) struct WhyArguments {
+    /// Scene file
+    pub(super) scene: PathBuf,
+
+    /// Column, from 0 at the left
+    pub(super) x: u32,
+
+    /// Row, from 0 at the top
+    pub(super) y: u32,
+
+    #[command(flatten)]
+    pub(super) changes: Changes,
+
+    /// Print JSON, with all digits
+    #[arg(long)]
+    pub(super) json: bool,
+
+    /// Draw the tree to an SVG file, too
+    #[arg(long, value_name = "FILE")]
+    pub(super) svg: Option<PathBuf>,
+}
+
 /// How a scene is drawn.
 #[derive(Args, Debug)]
 pub(super) struct Drawing {
     /// Scene file
     pub(super) scene: PathBuf,
 
+    #[command(flatten)]
+    pub(super) changes: Changes,
+
+    /// Draw a part of the picture; the file is a crop of the whole, with the size of the part
+    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
+    pub(super) region: Option<Region>,
+
+    /// Threads [default: one for each core]; the picture is the same for any number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
+    pub(super) threads: Option<u32>,
+
+    /// Show neither progress nor summary
+    #[arg(short, long)]
+    pub(super) quiet: bool,
+}
+
+/// What takes the place of settings of the scene.
+#[derive(Args, Debug, Default)]
+pub(super) struct Changes {
     /// Width and height in pixels, in place of the scene's
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(super) size: Option<Size>,
@@ -103,18 +155,6 @@ pub(super) struct Drawing {
     /// statistical stands in docs/error-budget.md.
     #[arg(long, value_name = "E", value_parser = error)]
     pub(super) error: Option<f64>,
-
-    /// Draw a part of the picture; the file is a crop of the whole, with the size of the part
-    #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
-    pub(super) region: Option<Region>,
-
-    /// Threads [default: one for each core]; the picture is the same for any number
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
-    pub(super) threads: Option<u32>,
-
-    /// Show neither progress nor summary
-    #[arg(short, long)]
-    pub(super) quiet: bool,
 }
 
 /// Width and height, each 1 to [`MAX_SIZE`].

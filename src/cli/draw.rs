@@ -2,7 +2,7 @@
 
 use super::{
     Console, Failure,
-    args::{Drawing, Sampling},
+    args::{Changes, Drawing, Sampling},
     machine,
     progress::Progress,
     stats::Seconds,
@@ -38,7 +38,7 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
     progress.aside(|| notices.iter().for_each(|notice| console.warn(notice)));
 
     let settings = &mut *renderer.settings();
-    apply(how, settings);
+    apply(&how.changes, settings);
     let region = region(how, settings)?;
     check_memory(region, machine::available_memory())?;
 
@@ -106,19 +106,19 @@ fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
 }
 
 /// What the command line gives takes the place of what the scene gives.
-fn apply(how: &Drawing, settings: &mut Settings) {
-    if let Some(size) = how.size {
+pub(super) fn apply(changes: &Changes, settings: &mut Settings) {
+    if let Some(size) = changes.size {
         (settings.width, settings.height) = (size.width, size.height);
     }
-    settings.depth = how.depth.unwrap_or(settings.depth);
+    settings.depth = changes.depth.unwrap_or(settings.depth);
     let finely = Sampling { antialias: Antialias::Adaptive, subdivisions: Some(6), ..Sampling::default() };
-    if let Some(sampling) = how.antialias.or(how.error.map(|_| finely)) {
+    if let Some(sampling) = changes.antialias.or(changes.error.map(|_| finely)) {
         settings.antialias = sampling.antialias;
         settings.grid = sampling.grid.unwrap_or(settings.grid);
         settings.subdivisions = sampling.subdivisions.unwrap_or(settings.subdivisions);
         settings.contrast = sampling.contrast.unwrap_or(settings.contrast);
     }
-    settings.error = how.error.unwrap_or(settings.error);
+    settings.error = changes.error.unwrap_or(settings.error);
 }
 
 /// The region to draw.

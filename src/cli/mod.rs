@@ -24,6 +24,7 @@ mod machine;
 mod progress;
 mod render;
 mod stats;
+mod why;
 
 pub use stats::{Seconds, Stats};
 
@@ -51,6 +52,7 @@ fn run_with(mut renderer: Renderer, args: impl IntoIterator<Item = OsString>, co
         Ok(Arguments { command: Command::Render(args) }) => render::render(&mut renderer, &args, console),
         Ok(Arguments { command: Command::Hash(args) }) => render::hash(&mut renderer, &args, console),
         Ok(Arguments { command: Command::Check(args) }) => check::check(&mut renderer, &args, console),
+        Ok(Arguments { command: Command::Why(args) }) => why::why(&mut renderer, &args, console),
         // Help and version arrive here, too; nothing can be told of them if the terminal is gone.
         Err(answer) => {
             let _ = answer.print();

@@ -20,6 +20,8 @@ pub mod snapshot;
 
 pub mod render;
 
+pub mod why;
+
 pub mod image;
 
 pub mod compare;

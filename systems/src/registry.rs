@@ -29,6 +29,8 @@ pub type Insert = Box<dyn FnOnce(&mut EntityWorldMut<'_>) + Send>;
 /// How a component of one type is read.
 #[derive(Clone, Copy)]
 pub struct Entry {
+    /// The tag.
+    pub tag: &'static str,
     /// What the component makes of its entity.
     pub kind: Kind,
     /// Shows the fields of a new component to a visitor, checks them against each other, and gives the component to be
@@ -55,7 +57,7 @@ impl Registry {
             });
             (insert, checked)
         };
-        let taken = self.0.insert(C::TAG, Entry { kind, read });
+        let taken = self.0.insert(C::TAG, Entry { tag: C::TAG, kind, read });
         assert!(taken.is_none(), "the tag `{}` is registered twice", C::TAG);
     }
 

@@ -42,6 +42,8 @@ pub struct Lights {
     pub ambient: Rgb,
     /// All others, in the order of names.
     pub lamps: Vec<Arc<dyn Lamp>>,
+    /// Names of the lamps' entities, and the tags of their components.
+    pub labels: Vec<(Option<Name>, &'static str)>,
 }
 
 /// The materials of a scene, and which object is made of which.
@@ -49,6 +51,8 @@ pub struct Lights {
 pub struct Materials {
     /// Every material once, in the order of names; the first is the one of objects that have none.
     pub all: Vec<Material>,
+    /// Names of the entities that hold them.
+    pub names: Vec<Option<Name>>,
     /// By rank of the object.
     pub of_object: Vec<MaterialOfObject>,
     /// The clear bodies, by rank of the object; empty if there are none.
@@ -122,15 +126,21 @@ impl Materials {
         self.media.get(object as usize).and_then(Option::as_ref)
     }
 
+    /// The number of the material of an object at a surface slot, in [`Materials::all`]; slots beyond the last have the last one's.
+    #[must_use]
+    #[inline]
+    pub fn number_at(&self, object: u32, slot: u32) -> usize {
+        match &self.of_object[object as usize] {
+            MaterialOfObject::Whole(index) => *index as usize,
+            MaterialOfObject::Slots(slots) => slots[(slot as usize).min(slots.len() - 1)] as usize,
+        }
+    }
+
     /// The material of an object at a surface slot; slots beyond the last have the last one's.
     #[must_use]
     #[inline]
     pub fn at(&self, object: u32, slot: u32) -> &Material {
-        let index = match &self.of_object[object as usize] {
-            MaterialOfObject::Whole(index) => *index,
-            MaterialOfObject::Slots(slots) => slots[(slot as usize).min(slots.len() - 1)],
-        };
-        &self.all[index as usize]
+        &self.all[self.number_at(object, slot)]
     }
 }
 

@@ -162,12 +162,14 @@ pub fn gather_materials(
         ranked.insert(Rank::of(effects.entity, effects.name), effects);
     }
     let mut all = vec![plain()];
+    let mut names = vec![None];
     let mut fillings = vec![Filling::default()];
     // Looked up only, never walked.
     let mut index_of: HashMap<Entity, u32> = HashMap::with_capacity(ranked.len());
     for effects in ranked.values() {
         index_of.insert(effects.entity, all.len() as u32);
         all.push(effects.pack());
+        names.push(effects.name.cloned());
         fillings.push(effects.filling());
     }
     let index = |entity: Entity| index_of.get(&entity).copied().unwrap_or(0);
@@ -194,7 +196,7 @@ pub fn gather_materials(
     }
     let any_transparent = all.iter().any(Material::is_transparent);
     let any_filtered = all.iter().any(Material::is_filtered);
-    parts.materials = Arc::new(Materials { all, of_object, media, any_transparent, any_filtered });
+    parts.materials = Arc::new(Materials { all, names, of_object, media, any_transparent, any_filtered });
 }
 
 /// Ambient and diffuse strengths of things without a material, and of materials without a term of light.

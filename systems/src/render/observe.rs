@@ -2,6 +2,7 @@
 
 use crate::{accelerate::Intersection, snapshot::Effect};
 use glam::DVec3;
+use serde::Serialize;
 use snell_components::{color::Rgb, light::Illumination, space::Ray};
 
 /// Told of every ray of a pixel's tree, of what it meets and brings, and of what was not followed, in the order in which
@@ -44,7 +45,7 @@ pub trait Observer {
 impl Observer for () {}
 
 /// How a ray came about.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Way {
     /// It comes from the camera.
     Camera,
@@ -94,7 +95,7 @@ pub struct Look<'a> {
 }
 
 /// What light comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Added {
     /// The surface: all terms of the light at the point.
     Surface,
@@ -105,7 +106,7 @@ pub enum Added {
 }
 
 /// Why a ray is not followed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Dropped {
     /// It weighs less than the cut-off.
     Cut,

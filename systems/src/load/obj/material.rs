@@ -3,7 +3,7 @@
 use super::log::Log;
 use super::mtl::Entry;
 use super::word::quoted;
-use snell_components::{color::Rgb, material::Highlight, texture::Image};
+use snell_components::{color::Rgb, material::Highlight, texture::Image, written::Line};
 use std::sync::Arc;
 
 /// Largest exponent a highlight may have.
@@ -30,6 +30,8 @@ pub struct ModelMaterial {
     pub index: Option<f64>,
     /// The path as found from the model's, and the image, which multiplies the colour.
     pub texture: Option<(String, Arc<Image>)>,
+    /// Where it is written.
+    pub line: Option<Line>,
 }
 
 impl Default for ModelMaterial {
@@ -44,6 +46,7 @@ impl Default for ModelMaterial {
             opacity: 1.0,
             index: None,
             texture: None,
+            line: None,
         }
     }
 }
@@ -103,6 +106,7 @@ impl ModelMaterial {
                 bends && opacity < 1.0 && index > 0.0 && index != 1.0
             }),
             texture: None,
+            line: Some(Line { file: log.file().into(), number: entry.at.line }),
         }
     }
 }

@@ -78,7 +78,7 @@ fn read(world: &mut World, sources: &[Source], mut report: Report) -> Result<Vec
         faults.0.append(&mut assets.faults);
         return Err(faults);
     }
-    let ready = spawn::prepare(layout, stated, wholes, &mut assets);
+    let ready = spawn::prepare(sources, layout, stated, wholes, &mut assets);
     spawn::spawn(world, ready, &assets);
     world.insert_resource(settings);
     Ok(assets.notices)

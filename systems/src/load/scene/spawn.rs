@@ -2,10 +2,10 @@
 
 use super::{
     component,
-    entity::Stated,
+    entity::{Relation, Stated},
     include::Layout,
     links::{Whole, part},
-    source::Report,
+    source::{Place, Report, Source},
 };
 use crate::{
     load::{assets::Assets, obj::ModelMaterial},
@@ -18,12 +18,18 @@ use snell_components::{
     material::{Ambient, Color, Diffuse, MadeOf, MaterialSlots, Mirror, Opacity, Refraction, Transmission},
     name::Name,
     texture::ImageTexture,
+    written::{Line, WrittenAt},
 };
-use std::collections::{BTreeMap, BTreeSet};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    path::Path,
+    sync::Arc,
+};
 
 /// An entity that only needs to be made.
 pub(super) struct Ready {
     name: String,
+    written: WrittenAt,
     components: Vec<Insert>,
     made_of: Option<usize>,
     parent: Option<usize>,
@@ -33,16 +39,25 @@ pub(super) struct Ready {
 
 /// Makes the components of all entities.
 pub(super) fn prepare(
+    sources: &[Source],
     layout: Layout<'_>,
     mut stated: Vec<Stated<'_>>,
     wholes: Vec<Whole>,
     assets: &mut Assets,
 ) -> Vec<Ready> {
+    let files: Vec<Arc<Path>> = sources.iter().map(|source| source.path.as_path().into()).collect();
+    let line = |place: Place| Line {
+        file: files.get(place.file).cloned().unwrap_or_else(|| Path::new("").into()),
+        number: sources.get(place.file).map_or(0, |source| source.line(place.offset)),
+    };
     let mut ready = vec![];
     for (number, (entity, whole)) in layout.entities.into_iter().zip(wholes).enumerate() {
         let (mut components, mut model, mut has_surface) = (vec![], None, whole.made_of.is_some());
+        let own = |relation: Relation| Some((relation.tag(), line(stated.get(number)?.link(relation)?.place)));
+        let mut lines: Vec<_> = Relation::ALL.into_iter().filter_map(own).collect();
         for at in whole.parts {
             let Some(part) = part(&stated, at) else { continue };
+            lines.push((part.entry.tag, line(part.written.place)));
             model = model.or(part.model);
             has_surface |= matches!(part.entry.kind, Kind::Effect | Kind::Texture);
             let own = at.0 == number;
@@ -56,6 +71,7 @@ pub(super) fn prepare(
         }
         ready.push(Ready {
             name: entity.name,
+            written: WrittenAt::new(line(entity.place), lines),
             components,
             made_of: whole.made_of,
             parent: whole.parent,
@@ -67,7 +83,8 @@ pub(super) fn prepare(
 
 /// Spawns all entities.
 pub(super) fn spawn(world: &mut World, ready: Vec<Ready>, assets: &Assets) {
-    let entities: Vec<Entity> = ready.iter().map(|ready| world.spawn(Name::new(ready.name.as_str())).id()).collect();
+    let entities: Vec<Entity> =
+        ready.iter().map(|ready| world.spawn((Name::new(ready.name.as_str()), ready.written.clone())).id()).collect();
     let mut materials: BTreeMap<usize, Vec<Entity>> = BTreeMap::new();
     for (ready, id) in ready.into_iter().zip(&entities) {
         let slots = ready
@@ -123,6 +140,9 @@ fn spawn_material(world: &mut World, name: String, material: &ModelMaterial) -> 
     }
     if let Some((path, image)) = &material.texture {
         entity.insert(ImageTexture { image: Asset { path: path.clone(), data: Some(image.clone()) } });
+    }
+    if let Some(line) = &material.line {
+        entity.insert(WrittenAt::new(line.clone(), []));
     }
     entity.id()
 }
