@@ -36,7 +36,11 @@ fn material(mtl: &str) -> (ModelMaterial, Vec<String>) {
     let obj = format!("mtllib a.mtl\n{CORNER}usemtl a\nf 1 2 3\n");
     let (mut model, notices) =
         read_with(obj.as_bytes(), &[("a.mtl", format!("newmtl a\n{mtl}").as_bytes())]).expect("a model");
-    (model.materials.remove(0), notices)
+    let mut material = model.materials.remove(0);
+    let line =
+        material.line.take().map(|line| (line.file.file_name().is_some_and(|name| name == "a.mtl"), line.number));
+    assert_eq!(line, Some((true, 1)));
+    (material, notices)
 }
 
 fn area(mesh: &TriangleMesh) -> DVec3 {
