@@ -57,7 +57,7 @@ pub mod prelude {
         settings::{Antialias, Settings},
         shape::{Cuboid, Mesh, Plane, Shading, Sphere, Triangle, TriangleMesh},
         space::{Bounds, Ray},
-        texture::{Checker, Image, ImageTexture, Texture},
+        texture::{Checker, Filter, Image, ImageTexture, Texture, Wrap},
         transform::{Step, Transform},
     };
 }

@@ -6,7 +6,7 @@ mod support {
     pub(crate) mod scene;
 }
 
-use snell::components::{asset::Asset, math};
+use snell::components::math;
 use snell::prelude::*;
 use snell::systems::{render::pixel, snapshot::View};
 use support::gallery::gallery;
@@ -386,7 +386,7 @@ fn simple_transparency_goes_straight_on_and_multiplies() {
 /// A ground that is white where x < 0 and black elsewhere (for |x| < 1000 and −1000 < z < 0).
 fn split_ground(world: &mut World) {
     world.spawn(AmbientLight::default());
-    let squares = Checker { even: Rgb::ZERO, odd: Rgb::ONE, frequency: 1e-3 };
+    let squares = Checker { even: Rgb::ZERO, odd: Rgb::ONE, frequency: 1e-3, ..Checker::default() };
     world.spawn((Plane {}, squares, Ambient(Rgb::ONE)));
 }
 
@@ -701,8 +701,7 @@ fn texel(column: usize, row_from_top: usize) -> [f32; 3] {
 
 fn painted() -> (ImageTexture, Ambient) {
     let texels = (0..8).map(|i| texel(i % 4, i / 4)).collect();
-    let image = Asset::from_data(Image::new(4, 2, texels).expect("an image"));
-    (ImageTexture { image }, Ambient(Rgb::ONE))
+    (Image::new(4, 2, texels).expect("an image").into(), Ambient(Rgb::ONE))
 }
 
 /// Checks that the ray from an eye to a point finds the texel that holds the texture coordinates.
@@ -819,7 +818,7 @@ fn every_face_of_a_box_carries_the_image_upright() {
 fn a_texture_multiplies_the_colour() {
     let snapshot = scene(|world| {
         world.spawn(AmbientLight::default());
-        let checker = Checker { even: Rgb::new(0.5, 1.0, 0.25), odd: Rgb::ZERO, frequency: 1.0 };
+        let checker = Checker { even: Rgb::new(0.5, 1.0, 0.25), odd: Rgb::ZERO, ..Checker::default() };
         world.spawn((Plane {}, checker, Color(Rgb::new(0.5, 0.25, 1.0)), Ambient(Rgb::ONE)));
     });
     assert_eq!(seen(&snapshot, DVec3::new(0.5, 1.0, -0.5), DVec3::NEG_Y), Rgb::splat(0.25));

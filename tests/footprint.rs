@@ -2,7 +2,6 @@
 
 use bevy_ecs::component::Component;
 use snell::components::{
-    asset::Asset,
     math,
     texture::{Pattern, TexturePoint},
 };
@@ -225,7 +224,7 @@ fn the_seam_of_a_sphere_is_crossed_as_if_it_were_not_there() {
 fn none_is_worked_out_where_no_texture_filters() {
     let image = Image::new(1, 1, vec![[0.5; 3]]).expect("an image");
     let plain = |world: &mut World, _: (Probe, Ambient)| {
-        world.spawn((Plane {}, ImageTexture { image: Asset::from_data(image.clone()) }));
+        world.spawn((Plane {}, ImageTexture::from(image.clone())));
     };
     assert!(!scene(&above(), Show::Uv, plain).materials.any_filtered);
     assert!(!scene(&above(), Show::Uv, floor).materials.any_filtered);

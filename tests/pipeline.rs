@@ -299,7 +299,7 @@ fn materials_may_be_changed_shared_and_taken_away() {
 fn a_texture_may_become_one_of_another_type() {
     let image = || {
         let image = Image::new(1, 1, vec![[0.1, 0.2, 0.9]]).expect("an image");
-        ImageTexture { image: snell::components::asset::Asset::from_data(image) }
+        ImageTexture::from(image)
     };
     for to_checker in [true, false] {
         let mut renderer = studio();

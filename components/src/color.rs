@@ -1,10 +1,21 @@
 //! Light and colour: linear RGB in the renderer, sRGB only at the doors.
 
-use crate::math;
+use crate::{choice, math};
 use glam::DVec3;
 
 /// Linear-light red, green and blue with the primaries of sRGB; 1 is display white.
 pub type Rgb = DVec3;
+
+choice! {
+    /// What the numbers of colours in files mean: of images with 8 or 16 bits, of pictures, and of colours `"#rrggbb"`.
+    pub enum Encoding {
+        /// Light encoded for a screen (sRGB); the renderer computes with linear light.
+        #[default]
+        Srgb,
+        /// The numbers that the renderer computes with.
+        Raw,
+    }
+}
 
 /// Linear light of an sRGB-encoded value in 0..=1 (IEC 61966-2-1).
 #[must_use]

@@ -1,9 +1,8 @@
 //! Real and broken files of many origins, where a collection of them is present: `SNELL_DATA` names its folder. Without
 //! one the tests here pass by.
 
-use glam::DVec2;
 use serde_json::Value;
-use snell_components::color;
+use snell_components::color::Encoding;
 use snell_systems::load::image;
 use snell_systems::load::obj::{self, Model};
 use snell_systems::load::{Fault, Faults, Notice};
@@ -180,11 +179,7 @@ fn every_encoding_of_a_card_shows_the_same() {
         if entry["size"].is_array() {
             assert_eq!(list("size"), [f64::from(width), f64::from(height)], "{name}");
         }
-        let code = |x: u32, y: u32| {
-            let uv =
-                DVec2::new((f64::from(x) + 0.5) / f64::from(width), 1.0 - (f64::from(y) + 0.5) / f64::from(height));
-            (image.nearest(uv).to_array()).map(|linear| 255.0 * color::srgb_from_linear(linear))
-        };
+        let code = |x: u32, y: u32| image.texel(x, y, Encoding::Raw).map(|number| 255.0 * f64::from(number));
         let mut mean = [0.0; 3];
         for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
             let code = code(x, y);

@@ -1,7 +1,6 @@
 //! Five scenes that together use every feature.
 
 use super::{random::Random, scene::Scene};
-use snell::components::asset::Asset;
 use snell::prelude::*;
 use std::sync::Arc;
 
@@ -46,9 +45,10 @@ fn matte() -> Scene {
         },
     );
     let texels = (0..16).map(|i| [i as f32 / 15.0, ((i * 5) % 16) as f32 / 15.0, ((i * 11) % 16) as f32 / 15.0]);
-    let image = ImageTexture { image: Asset::from_data(Image::new(4, 4, texels.collect()).expect("an image")) };
+    let image = ImageTexture::from(Image::new(4, 4, texels.collect()).expect("an image"));
     scene.put("painted", (image, Diffuse(Rgb::splat(0.8)), Ambient(Rgb::splat(0.4))));
-    let checker = Checker { even: Rgb::new(0.9, 0.9, 0.7), odd: Rgb::new(0.2, 0.1, 0.3), frequency: 3.0 };
+    let checker =
+        Checker { even: Rgb::new(0.9, 0.9, 0.7), odd: Rgb::new(0.2, 0.1, 0.3), frequency: 3.0, ..Checker::default() };
     scene.put("checked", (checker, Diffuse(Rgb::ONE), Highlight { strength: Rgb::splat(0.5), exponent: 30.0 }));
     scene.put_of("ball", "painted", (Sphere { radius: 1.0 }, Transform::at(DVec3::new(-1.5, 1.0, 0.0))));
     scene.put_of(

@@ -1,6 +1,7 @@
 //! Image files as textures: PNG, JPEG, BMP, TGA and EXR.
 //!
-//! Integer formats are taken as sRGB and brought to linear light; floating-point formats hold linear light already.
+//! The numbers of integer formats are kept; what they mean is a setting of the scene. Floating-point formats hold
+//! linear light.
 //! Grey images have equal channels. Alpha is left out: a texture colours a surface, it does not cut holes into it.
 //! Gamma and colour profiles, and the orientation that a camera notes, are left out, too: texture coordinates count
 //! from the corners of the image as it is stored.
@@ -8,7 +9,7 @@
 use super::fault::Fault;
 use super::file;
 use image::{DynamicImage, ImageReader, Limits};
-use snell_components::{color, texture::Image};
+use snell_components::texture::Image;
 use std::fs::File;
 use std::io::BufReader;
 use std::panic::catch_unwind;
@@ -41,12 +42,7 @@ pub fn read(path: &Path) -> Result<Image, Fault> {
     if u64::from(width) * u64::from(height) * size_of::<[f32; 3]>() as u64 > MOST_BYTES {
         return Err(fault(format!("is too large: {width} by {height} pixels")));
     }
-    let texels = linear(decoded);
-    let wrong = texels.iter().filter(|texel| !texel.iter().all(|x| x.is_finite())).count();
-    if wrong > 0 {
-        return Err(fault(format!("{wrong} of {} texels are not finite", texels.len())));
-    }
-    Image::new(width, height, texels).ok_or_else(|| fault("has no pixels".into()))
+    texels(decoded).map_err(fault)
 }
 
 fn decode(mut reader: ImageReader<BufReader<File>>) -> image::ImageResult<DynamicImage> {
@@ -58,37 +54,34 @@ fn decode(mut reader: ImageReader<BufReader<File>>) -> image::ImageResult<Dynami
     reader.decode()
 }
 
-/// The texels in linear light.
-fn linear(decoded: DynamicImage) -> Vec<[f32; 3]> {
-    match decoded {
+/// The image with its numbers as they are.
+fn texels(decoded: DynamicImage) -> Result<Image, String> {
+    let (width, height) = (decoded.width(), decoded.height());
+    let image = match decoded {
         DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) => {
-            decoded.into_rgb32f().pixels().map(|p| p.0).collect()
+            let texels: Vec<_> = decoded.into_rgb32f().pixels().map(|p| p.0).collect();
+            let wrong = texels.iter().filter(|texel| !texel.iter().all(|x| x.is_finite())).count();
+            if wrong > 0 {
+                return Err(format!("{wrong} of {} texels are not finite", texels.len()));
+            }
+            Image::new(width, height, texels)
         }
         DynamicImage::ImageLuma8(_)
         | DynamicImage::ImageLumaA8(_)
         | DynamicImage::ImageRgb8(_)
         | DynamicImage::ImageRgba8(_) => {
-            let table = decoding(u8::MAX.into());
-            decoded.into_rgb8().pixels().map(|p| p.0.map(|code| table[usize::from(code)])).collect()
+            Image::from_bytes(width, height, decoded.into_rgb8().pixels().map(|p| p.0).collect())
         }
-        _ => {
-            let table = decoding(u16::MAX);
-            decoded.into_rgb16().pixels().map(|p| p.0.map(|code| table[usize::from(code)])).collect()
-        }
-    }
-}
-
-/// Linear light of every sRGB code from 0 to `most`.
-fn decoding(most: u16) -> Vec<f32> {
-    let linear = |code: u16| color::linear_from_srgb(f64::from(code) / f64::from(most)) as f32;
-    (0..=most).map(linear).collect()
+        _ => Image::from_words(width, height, decoded.into_rgb16().pixels().map(|p| p.0).collect()),
+    };
+    image.ok_or_else(|| "has no pixels".into())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use glam::DVec2;
     use image::{ImageBuffer, Luma, Rgb, Rgba, Rgba32FImage};
+    use snell_components::color::{Encoding, linear_from_srgb};
     use std::path::PathBuf;
     use tempfile::TempDir;
 
@@ -99,21 +92,21 @@ mod tests {
         (folder, path)
     }
 
-    fn texel(image: &Image) -> [f64; 3] {
-        image.nearest(DVec2::splat(0.5)).to_array()
+    fn texel(image: &Image) -> [f32; 3] {
+        image.texel(0, 0, Encoding::Srgb)
     }
 
     #[test]
-    fn integers_are_decoded_from_srgb_and_alpha_is_left_out() {
+    fn integers_are_taken_as_srgb_and_alpha_is_left_out() {
         for name in ["a.png", "a.bmp", "a.tga"] {
             let (_folder, path) = saved(name, ImageBuffer::from_pixel(2, 1, Rgba([0u8, 188, 255, 7])));
             let image = read(&path).expect("an image");
             assert_eq!(image.size(), (2, 1));
-            let middle = f64::from(color::linear_from_srgb(188.0 / 255.0) as f32);
+            let middle = linear_from_srgb(188.0 / 255.0) as f32;
             assert_eq!(texel(&image), [0.0, middle, 1.0], "{name}");
         }
         let (_folder, path) = saved("a.png", ImageBuffer::from_pixel(1, 1, Luma([32_768u16])));
-        let grey = f64::from(color::linear_from_srgb(32_768.0 / 65_535.0) as f32);
+        let grey = linear_from_srgb(32_768.0 / 65_535.0) as f32;
         assert_eq!(texel(&read(&path).expect("an image")), [grey; 3]);
     }
 

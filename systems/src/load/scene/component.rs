@@ -20,7 +20,7 @@ pub(super) enum Given<'s> {
     Nothing,
     /// Fields by name.
     Named(&'s [Field]),
-    /// The value of the only field.
+    /// The value of the only field, or of the first, if no other must be given.
     Value(&'s Node),
 }
 
@@ -66,8 +66,17 @@ pub(super) fn fill<T>(
     describe: impl FnOnce(&mut dyn FieldVisitor) -> (T, Result<(), Fault>),
 ) -> Option<Filled<T>> {
     let values = Values { text: &written.source.text, faults: vec![] };
-    let mut reader =
-        Reader { written, values, assets, described: vec![], missing: vec![], placement: None, model: None };
+    let mut reader = Reader {
+        written,
+        values,
+        assets,
+        described: vec![],
+        required: 0,
+        first_required: false,
+        missing: vec![],
+        placement: None,
+        model: None,
+    };
     let (value, checked) = describe(&mut reader);
     reader.check_given();
     if let Err(fault) = checked
@@ -91,6 +100,10 @@ struct Reader<'a, 's> {
     assets: &'a mut Assets,
     /// The fields seen so far.
     described: Vec<&'static str>,
+    /// How many of them must be given.
+    required: usize,
+    /// Whether the first is one of those.
+    first_required: bool,
     /// Fields that must be given and are not, with their meanings.
     missing: Vec<(&'static str, &'static str)>,
     placement: Option<DAffine3>,
@@ -110,11 +123,16 @@ impl<'s> Reader<'_, 's> {
         }
     }
 
+    /// Whether the first field must be given and no other, so that it may stand alone without its name.
+    fn first_is_enough(&self) -> bool {
+        self.required == 1 && self.first_required
+    }
+
     /// Checks what was given against the fields that there are.
     fn check_given(&mut self) {
         let here = self.written.place.offset;
         let fields = match self.written.given {
-            Given::Value(_) if self.described.len() != 1 => {
+            Given::Value(_) if self.described.len() != 1 && !self.first_is_enough() => {
                 // What the value was taken for does not matter any more.
                 let message = match self.described.first() {
                     Some(first) => format!(": expected its fields by name, as `{first}: …`"),
@@ -201,6 +219,8 @@ impl<'s> Reader<'_, 's> {
 
 impl FieldVisitor for Reader<'_, '_> {
     fn field(&mut self, name: &'static str, value: Value<'_>, spec: Spec) {
+        self.first_required |= spec.required && self.described.is_empty();
+        self.required += usize::from(spec.required);
         self.described.push(name);
         match self.find(name) {
             Some(node) => {

@@ -139,7 +139,10 @@ fn spawn_material(world: &mut World, name: String, material: &ModelMaterial) -> 
         }
     }
     if let Some((path, image)) = &material.texture {
-        entity.insert(ImageTexture { image: Asset { path: path.clone(), data: Some(image.clone()) } });
+        entity.insert(ImageTexture {
+            image: Asset { path: path.clone(), data: Some(image.clone()) },
+            ..ImageTexture::default()
+        });
     }
     if let Some(line) = &material.line {
         entity.insert(WrittenAt::new(line.clone(), []));

@@ -243,7 +243,7 @@ const BAD_ENTITIES: &[Bad] = &[
         r#""a": [Diffuse(1), Dispersion],"#,
         &[r#"2:19: "a": Dispersion: expected `Refraction` or `Dielectric` beside it"#],
     ),
-    (r#""a": [Highlight(5)],"#, &[r#"2:7: "a": Highlight: expected its fields by name, as `strength: …`"#]),
+    (r#""a": [Checker(5)],"#, &[r#"2:7: "a": Checker: expected its fields by name, as `even: …`"#]),
     (
         r#""a": [5, "b", [Sphere]],"#,
         &[
