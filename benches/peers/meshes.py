@@ -2,6 +2,7 @@
 
 import array
 import lzma
+import math
 import random
 import struct
 from pathlib import Path
@@ -20,6 +21,36 @@ class Mesh:
             file.write(struct.pack("<II", len(self.positions) // 3, len(self.corners) // 3))
             file.write(self.positions.tobytes())
             file.write(self.corners.tobytes())
+
+    @staticmethod
+    def read_tri(path):
+        """What `write_tri` wrote."""
+        with open(path, "rb") as file:
+            vertices, triangles = struct.unpack("<II", file.read(8))
+            mesh = Mesh([], [])
+            mesh.positions.fromfile(file, 3 * vertices)
+            mesh.corners.fromfile(file, 3 * triangles)
+            return mesh
+
+    def write_obj(self, path):
+        """Nine digits, so that every reader gets the same `f32`."""
+        with open(path, "w") as file:
+            file.writelines(f"v {x:.9g} {y:.9g} {z:.9g}\n" for x, y, z in self.vertices())
+            file.writelines(f"f {a + 1} {b + 1} {c + 1}\n" for a, b, c in self.triangles())
+
+    def normals(self):
+        """A unit normal a vertex: the mean of those of the faces around it, weighted by area."""
+        sums = [[0.0, 0.0, 0.0] for _ in range(len(self.positions) // 3)]
+        points = list(self.vertices())
+        for face in self.triangles():
+            a, b, c = (points[i] for i in face)
+            e, f = [[q[i] - a[i] for i in range(3)] for q in (b, c)]
+            normal = (e[1] * f[2] - e[2] * f[1], e[2] * f[0] - e[0] * f[2], e[0] * f[1] - e[1] * f[0])
+            for i in face:
+                for axis in range(3):
+                    sums[i][axis] += normal[axis]
+        lengths = (math.sqrt(x * x + y * y + z * z) for x, y, z in sums)
+        return [(x / l, y / l, z / l) if l > 0 else (0, 1, 0) for (x, y, z), l in zip(sums, lengths)]
 
     def vertices(self):
         return zip(*[iter(self.positions)] * 3)

@@ -5,9 +5,10 @@ use crate::{
     rays::{Kind, Rays},
     subject::{Subject, build},
 };
-use snell::systems::accelerate::Geometry;
+use snell::{Options, Picture, Renderer, components::color, render, systems::accelerate::Geometry};
 use std::{
     error::Error,
+    fs,
     io::{self, BufRead, Write},
     path::Path,
 };
@@ -44,6 +45,38 @@ pub(crate) fn answer(mesh: &Path, rays: &Path) -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// Loads a scene, draws it on some threads and writes the picture as PPM; tells what that took.
+pub(crate) fn draw(scene: &Path, threads: usize, picture: &Path) -> Result<(), Box<dyn Error>> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let mut renderer = Renderer::new();
+    let (snapshot, load) = spent(|| {
+        pool.install(|| {
+            renderer.load(scene).map_err(|faults| faults.to_string())?;
+            renderer.snapshot().map_err(|why| why.to_string())
+        })
+    });
+    let snapshot = snapshot?;
+    let (frame, trace) = spent(|| pool.install(|| render(&snapshot, &Options::default())));
+    fs::write(picture, ppm(&frame.picture))?;
+    let counts = frame.counts;
+    let (rays, primary, shadow) = (counts.rays(), counts.primary, counts.shadow);
+    let bounced = counts.mirror + counts.transmitted;
+    let (nodes, tests) = (counts.nodes, counts.primitives);
+    tell(format_args!(
+        r#"{{"load_wall": {:.6}, "load_cpu": {:.6}, "trace_wall": {:.6}, "trace_cpu": {:.6}, "rays": {rays}, "primary": {primary}, "bounced": {bounced}, "shadow": {shadow}, "nodes": {nodes}, "tests": {tests}}}"#,
+        load.wall, load.cpu, trace.wall, trace.cpu
+    ))?;
+    Ok(())
+}
+
+/// A picture of 8 bits a channel, sRGB.
+fn ppm(picture: &Picture) -> Vec<u8> {
+    let mut bytes = format!("P6\n{} {}\n255\n", picture.width, picture.height).into_bytes();
+    let code = |linear: &f32| (255.0 * color::srgb_from_linear(f64::from(*linear).clamp(0.0, 1.0)) + 0.5) as u8;
+    bytes.extend(picture.pixels.iter().flatten().map(code));
+    bytes
 }
 
 fn answer_build(subject: &Subject, threads: usize) -> Result<(), Box<dyn Error>> {

@@ -32,12 +32,22 @@ enum Command {
         /// The beginning of the names of the files of rays.
         rays: PathBuf,
     },
+    /// Load and draw one scene, for `benches/peers`.
+    Frame {
+        /// A scene file.
+        scene: PathBuf,
+        /// Threads.
+        threads: usize,
+        /// Where to write the picture, as PPM.
+        picture: PathBuf,
+    },
 }
 
 fn main() -> ExitCode {
     let done = match Arguments::parse().command {
         Command::Rays { mesh, rays } => contestant::write_rays(&mesh, &rays),
         Command::Contestant { mesh, rays } => contestant::answer(&mesh, &rays),
+        Command::Frame { scene, threads, picture } => contestant::draw(&scene, threads, &picture),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

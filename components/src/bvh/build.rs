@@ -232,8 +232,9 @@ fn partition_piece(items: &mut [Item], left: &impl Fn(&Item) -> bool) -> usize {
     let mut end = 0;
     for i in 0..items.len() {
         // Swapped always: which side an item belongs to cannot be foreseen, so a branch on it would cost more.
+        let is_left = left(&items[i]);
         items.swap(i, end);
-        end += usize::from(left(&items[end]));
+        end += usize::from(is_left);
     }
     end
 }
