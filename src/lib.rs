@@ -22,6 +22,8 @@
 //! # Ok::<(), snell::SceneError>(())
 //! ```
 
+#![forbid(unsafe_code)]
+
 pub mod cli;
 
 pub use snell_components as components;

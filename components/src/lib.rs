@@ -24,6 +24,7 @@
 //! | [`space`], [`transform`] | rays, bounds, placement |
 //! | [`color`] | linear RGB and the sRGB transfer curve |
 //! | [`name`], [`describe`], [`asset`], [`written`] | what a thing is called, how its fields are read and written, files it refers to, where it stands in a file |
+//! | [`lanes`] | several numbers at once, at the level the machine has |
 //! | [`bvh`] | the bounding-volume tree, over bounds alone |
 //! | [`primitive`] | the contract every shape meets; [`shape`] holds the built-in ones |
 //! | [`material`], [`texture`], [`light`], [`camera`], [`settings`] | what the rays meet and how the picture is taken |
@@ -43,6 +44,9 @@ pub mod written;
 pub mod asset;
 
 pub mod describe;
+
+#[expect(unsafe_code, reason = "intrinsics and an uninitialised stack; nowhere else")]
+pub mod lanes;
 
 pub mod bvh;
 

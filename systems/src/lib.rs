@@ -4,6 +4,8 @@
 //! → [`image`] → file. [`compare`] tells how far two pictures are apart; [`pipeline`] holds the order, [`registry`] the open
 //! set of components.
 
+#![forbid(unsafe_code)]
+
 pub mod pipeline;
 
 pub mod registry;

@@ -114,8 +114,8 @@ fn node(spans: &[Span], leaf: usize) -> Node {
     let mut node = Node::EMPTY;
     for (lane, span) in spans.iter().enumerate() {
         for axis in 0..3 {
-            node.min[axis][lane] = span.bounds.min[axis];
-            node.max[axis][lane] = span.bounds.max[axis];
+            node.planes[axis][lane] = span.bounds.min[axis];
+            node.planes[3 + axis][lane] = span.bounds.max[axis];
         }
         if span.len <= leaf {
             node.child[lane] = Child::leaf(span.first, span.len);
@@ -310,7 +310,7 @@ mod tests {
     fn check(tree: &Bvh, boxes: &[Box32], node: usize, leaf: usize, reached: &mut usize) -> Box32 {
         let node = &tree.nodes[node];
         let mut whole = Box32::EMPTY;
-        for lane in (0..WIDTH).filter(|&lane| node.min[0][lane] != f32::INFINITY) {
+        for lane in (0..WIDTH).filter(|&lane| node.holds(lane)) {
             let child = node.child[lane];
             let below = if child.is_leaf() {
                 assert!(child.run().len() <= leaf);
@@ -320,7 +320,8 @@ mod tests {
             } else {
                 check(tree, boxes, child.0 as usize, leaf, reached)
             };
-            let stored = Box32 { min: node.min.map(|of| of[lane]), max: node.max.map(|of| of[lane]) };
+            let [a, b, c, d, e, f] = node.planes.map(|of| of[lane]);
+            let stored = Box32 { min: [a, b, c], max: [d, e, f] };
             assert_eq!(stored, below);
             whole = whole.union(&below);
         }

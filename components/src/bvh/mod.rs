@@ -7,11 +7,15 @@
 //! every leaf whose contents an exact test would hit: the tree can cost time, never change a picture.
 
 mod bins;
+mod blocks;
 mod build;
 mod traverse;
 
 use crate::{math, space::Bounds};
 use glam::DVec3;
+
+pub(crate) use blocks::{BLOCK, Blocks};
+pub(crate) use traverse::{Leaf, Visitor};
 
 /// Children of a node.
 pub const WIDTH: usize = 8;
@@ -62,14 +66,21 @@ impl Box32 {
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 struct Node {
-    min: [[f32; WIDTH]; 3],
-    max: [[f32; WIDTH]; 3],
+    /// Least x, y, z, then greatest x, y, z.
+    planes: [[f32; WIDTH]; 6],
     child: [Child; WIDTH],
 }
 
 impl Node {
-    const EMPTY: Self =
-        Self { min: [[f32::INFINITY; WIDTH]; 3], max: [[f32::NEG_INFINITY; WIDTH]; 3], child: [Child(0); WIDTH] };
+    const EMPTY: Self = {
+        let (none, no) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
+        Self { planes: [none, none, none, no, no, no], child: [Child(0); WIDTH] }
+    };
+
+    /// Whether a lane holds a child.
+    fn holds(&self, lane: usize) -> bool {
+        self.planes[0][lane] != f32::INFINITY
+    }
 }
 
 /// A child: a node by index, or a leaf as a run of [`Bvh::order`].
@@ -99,6 +110,12 @@ impl Child {
         first..first + ((self.0 >> 27) & 15) as usize + 1
     }
 
+    #[inline(always)]
+    fn leaf_run(self) -> Leaf {
+        let core::ops::Range { start, end } = self.run();
+        Leaf { first: start, len: end - start }
+    }
+
     /// The same child in a tree whose nodes are stored `nodes` further on.
     fn shifted(self, nodes: usize) -> Self {
         if self.is_leaf() { self } else { Self(self.0 + nodes as u32) }
@@ -113,6 +130,9 @@ pub struct Bvh {
 }
 
 impl Bvh {
+    /// Most levels of nodes.
+    pub(crate) const MAX_DEPTH: usize = 72;
+
     /// The things in leaf order, by their index among the boxes the tree was built from.
     #[must_use]
     pub fn order(&self) -> &[u32] {
@@ -124,7 +144,7 @@ impl Bvh {
         let mut leaves: Vec<_> = self
             .nodes
             .iter()
-            .flat_map(|node| node.child.iter().enumerate().filter(|(i, _)| node.min[0][*i] != f32::INFINITY))
+            .flat_map(|node| node.child.iter().enumerate().filter(|(lane, _)| node.holds(*lane)))
             .filter(|(_, child)| child.is_leaf())
             .map(|(_, child)| child.run())
             .collect();
@@ -134,16 +154,7 @@ impl Bvh {
 
     /// The boxes of the root's children: up to eight that together hold everything.
     pub fn top_boxes(&self) -> impl Iterator<Item = Bounds> {
-        self.nodes
-            .first()
-            .into_iter()
-            .flat_map(|root| {
-                (0..WIDTH).map(|lane| Bounds {
-                    min: DVec3::from_array([0, 1, 2].map(|axis| f64::from(root.min[axis][lane]))),
-                    max: DVec3::from_array([0, 1, 2].map(|axis| f64::from(root.max[axis][lane]))),
-                })
-            })
-            .filter(|bounds| bounds.min.x <= bounds.max.x)
+        top_boxes(&self.nodes)
     }
 
     /// Bytes the tree occupies.
@@ -151,4 +162,14 @@ impl Bvh {
     pub fn bytes(&self) -> usize {
         self.nodes.len() * size_of::<Node>() + self.order.len() * size_of::<u32>()
     }
+}
+
+/// The boxes of the root's children.
+fn top_boxes(nodes: &[Node]) -> impl Iterator<Item = Bounds> {
+    let of = |root: &Node, lane: usize| Bounds {
+        min: DVec3::from_array([0, 1, 2].map(|axis| f64::from(root.planes[axis][lane]))),
+        max: DVec3::from_array([3, 4, 5].map(|plane| f64::from(root.planes[plane][lane]))),
+    };
+    let root = nodes.first().into_iter();
+    root.flat_map(move |root| (0..WIDTH).filter(|lane| root.holds(*lane)).map(move |lane| of(root, lane)))
 }

@@ -1,28 +1,15 @@
 //! Walking the tree along a ray, nearest child first.
 
-use super::{Bvh, Child, Node, WIDTH};
-use crate::{math, primitive::Cost, space::Ray};
+use super::{Blocks, Bvh, Child, Node, WIDTH};
+use crate::{
+    lanes::{self, Job, Lanes, Stack},
+    primitive::Cost,
+    space::Ray,
+};
 use core::ops::Range;
-use smallvec::SmallVec;
+use glam::DVec3;
 
-/// A ray prepared for box tests in `f32` that err on the safe side only.
-///
-/// The distance to a plane is `(plane − origin) · inverse`. The origin and the inverse direction are rounded to `f32`
-/// the way that makes near distances smaller and far ones larger; the two operations then add at most two roundings,
-/// which [`SLACK`] outweighs.
-struct BoxRay {
-    near: [Axis; 3],
-    far: [Axis; 3],
-    negative: [bool; 3],
-}
-
-#[derive(Clone, Copy)]
-struct Axis {
-    origin: f32,
-    inverse: f32,
-}
-
-/// Relative slack on distances: four roundings of `f32` on either side.
+/// Relative slack on distances: four roundings of `f32` on either side, of which three occur.
 const SLACK: f64 = 4.0 / (1u64 << 24) as f64;
 
 /// How far a ray is widened, in ulps of its origin's largest coordinate: an exact test takes the ray to its own space
@@ -30,73 +17,229 @@ const SLACK: f64 = 4.0 / (1u64 << 24) as f64;
 /// on all others the slack on distances is far larger.
 const ORIGIN_ULPS: f64 = 64.0;
 
-impl BoxRay {
-    fn new(ray: &Ray) -> Self {
-        let mut this = Self {
-            near: [Axis { origin: 0.0, inverse: 0.0 }; 3],
-            far: [Axis { origin: 0.0, inverse: 0.0 }; 3],
-            negative: [false; 3],
-        };
-        let margin = ORIGIN_ULPS * f64::EPSILON * ray.origin.abs().max_element();
-        for axis in 0..3 {
-            let (origin, direction) = (ray.origin[axis], ray.direction[axis]);
-            let (low, high) = (math::f32_below(origin - margin), math::f32_above(origin + margin));
-            // The sign bit, so that −0 and +0 lead to the same planes as the inverse they make.
-            let negative = direction.is_sign_negative();
-            let inverse = 1.0 / direction;
-            this.negative[axis] = negative;
-            this.near[axis] = Axis { origin: if negative { low } else { high }, inverse: shrunk(inverse) };
-            this.far[axis] = Axis { origin: if negative { high } else { low }, inverse: grown(inverse) };
+/// More than the rounding of any number to `f32`, relative; and the least `f32`, for those near zero.
+const ULP32: f64 = f32::EPSILON as f64;
+const TINY32: f64 = f32::from_bits(1) as f64;
+
+/// A ray prepared for box tests in `f32` that err on the safe side only.
+///
+/// The distance to a plane is `(plane − origin) · inverse`. The origin and the inverse direction are moved before they
+/// are rounded to `f32`, the way that makes near distances smaller and far ones larger; the two operations and the
+/// rounding then add at most three roundings, which [`SLACK`] outweighs. An inverse that makes near distances smaller
+/// stays finite, one that makes far distances larger is never zero.
+struct BoxRay<L: Lanes> {
+    /// Origins and inverse directions for near planes.
+    near: [(L::F, L::F); 3],
+    /// Origins and inverse directions for far planes.
+    far: [(L::F, L::F); 3],
+    /// Which of a node's planes are the near ones, and which the far ones.
+    near_planes: [usize; 3],
+    far_planes: [usize; 3],
+}
+
+impl<L: Lanes> BoxRay<L> {
+    #[inline(always)]
+    fn new(lanes: L, ray: &Ray) -> Self {
+        let l = lanes;
+        let origin = l.d_load(&padded(ray.origin));
+        let direction = l.d_load(&padded(ray.direction));
+        let (most, least) = (l.d_splat(f64::from(f32::MAX)), l.d_splat(f64::from(f32::MIN)));
+        let reach = ray.origin.abs();
+        let reach = larger(larger(reach.x, reach.y), reach.z);
+        let margin = l.d_splat(ORIGIN_ULPS * f64::EPSILON * reach + TINY32);
+        let spread = l.d_add(l.d_mul(l.d_abs(origin), l.d_splat(ULP32)), margin);
+        let low = l.d_narrow(l.d_min(l.d_sub(origin, spread), most));
+        let high = l.d_narrow(l.d_max(l.d_add(origin, spread), least));
+        let inverse = l.d_div(l.d_splat(1.0), direction);
+        let shrunk = l.d_mul(inverse, l.d_splat(1.0 - SLACK));
+        let shrunk = l.d_narrow(l.d_max(l.d_min(shrunk, most), least));
+        let tiny = l.d_with_sign(l.d_splat(TINY32), inverse);
+        let grown = l.d_narrow(l.d_add(l.d_mul(inverse, l.d_splat(1.0 + SLACK)), tiny));
+        // The sign bit, so that −0 and +0 lead to the same planes as the inverse they make.
+        let negative = l.d_signs(direction);
+        let [x, y, z] = [negative & 1 != 0, negative & 2 != 0, negative & 4 != 0];
+        Self {
+            near: [
+                (l.f_splat(if x { low[0] } else { high[0] }), l.f_splat(shrunk[0])),
+                (l.f_splat(if y { low[1] } else { high[1] }), l.f_splat(shrunk[1])),
+                (l.f_splat(if z { low[2] } else { high[2] }), l.f_splat(shrunk[2])),
+            ],
+            far: [
+                (l.f_splat(if x { high[0] } else { low[0] }), l.f_splat(grown[0])),
+                (l.f_splat(if y { high[1] } else { low[1] }), l.f_splat(grown[1])),
+                (l.f_splat(if z { high[2] } else { low[2] }), l.f_splat(grown[2])),
+            ],
+            near_planes: [if x { 3 } else { 0 }, if y { 4 } else { 1 }, if z { 5 } else { 2 }],
+            far_planes: [if x { 0 } else { 3 }, if y { 1 } else { 4 }, if z { 2 } else { 5 }],
         }
-        this
     }
 
-    /// Distances at which the ray enters the children of a node; `None` lanes are beyond `limit` or missed.
-    #[inline]
-    fn enter(&self, node: &Node, limit: f32) -> ([f32; WIDTH], u32) {
-        let mut near = [0.0f32; WIDTH];
-        let mut far = [limit; WIDTH];
+    /// Distances at which the ray enters the children of a node, and which children it enters within `limit`.
+    #[inline(always)]
+    fn enter(&self, lanes: L, node: &Node, limit: f32) -> (L::F, u32) {
+        let l = lanes;
+        let mut near = l.f_splat(0.0);
+        let mut far = l.f_splat(limit);
         for axis in 0..3 {
-            let (low, high) = (&node.min[axis], &node.max[axis]);
-            let (near_planes, far_planes) = if self.negative[axis] { (high, low) } else { (low, high) };
-            let (n, f) = (self.near[axis], self.far[axis]);
-            for lane in 0..WIDTH {
-                // Comparisons with NaN (a ray in a face) keep what was known.
-                let enter = (near_planes[lane] - n.origin) * n.inverse;
-                near[lane] = if enter > near[lane] { enter } else { near[lane] };
-                let leave = (far_planes[lane] - f.origin) * f.inverse;
-                far[lane] = if leave < far[lane] { leave } else { far[lane] };
+            // Comparisons with NaN (a ray in a face) keep what was known.
+            let (origin, inverse) = self.near[axis];
+            let plane = l.f_load(&node.planes[self.near_planes[axis]]);
+            near = l.f_max(l.f_mul(l.f_sub(plane, origin), inverse), near);
+            let (origin, inverse) = self.far[axis];
+            let plane = l.f_load(&node.planes[self.far_planes[axis]]);
+            far = l.f_min(l.f_mul(l.f_sub(plane, origin), inverse), far);
+        }
+        (near, l.f_le(near, far))
+    }
+}
+
+/// A vector in four lanes; the last holds something that divides.
+#[inline(always)]
+fn padded(v: DVec3) -> [f64; 4] {
+    [v.x, v.y, v.z, 1.0]
+}
+
+#[inline(always)]
+fn larger(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// An `f32` not below a distance that is not negative.
+#[inline(always)]
+fn above(t: f64) -> f32 {
+    (t * (1.0 + ULP32) + TINY32) as f32
+}
+
+/// A leaf, as the tree stores it: a run of the order for a [`Bvh`], one block for [`Blocks`].
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Leaf {
+    pub(crate) first: usize,
+    pub(crate) len: usize,
+}
+
+/// What is done with the leaves along a ray.
+pub(crate) trait Visitor {
+    /// Tests what a leaf holds. Returns the distance beyond which nothing matters from now on, or nothing to stop.
+    ///
+    /// To be `#[inline(always)]`: see [`Job::run`].
+    fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, cost: &mut Cost) -> Option<f64>;
+}
+
+/// Room on the stack of a walk; see [`Bvh::MAX_DEPTH`].
+const ROOM: usize = (WIDTH - 1) * Bvh::MAX_DEPTH + 1;
+
+/// The first child of a mask, and the distance at which the ray enters it, in one number that sorts by distance: the
+/// bits of numbers that are not negative are ordered as they are.
+#[inline(always)]
+fn first(distances: &[f32; WIDTH], node: &Node, mask: u32) -> u64 {
+    let lane = mask.trailing_zeros() as usize % WIDTH;
+    u64::from(distances[lane].to_bits()) << 32 | u64::from(node.child[lane].0)
+}
+
+/// Visits the leaves along the ray, nearest first, until nothing is left within the limit.
+#[inline(always)]
+fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, cost: &mut Cost, visitor: &mut V) {
+    // A ray that goes nowhere, or comes from nowhere, meets nothing.
+    if nodes.is_empty() || !ray.is_valid() {
+        return;
+    }
+    let ray = BoxRay::new(lanes, ray);
+    let mut limit = above(limit);
+    let mut stack = Stack::<ROOM>::new();
+    let mut child = Child::node(0);
+    loop {
+        if child.is_leaf() {
+            match visitor.visit(lanes, child.leaf_run(), cost) {
+                Some(nearer) => limit = above(nearer),
+                None => return,
+            }
+        } else {
+            let node = &nodes[child.0 as usize];
+            cost.nodes += 1;
+            let (near, mut mask) = ray.enter(lanes, node, limit);
+            if mask != 0 {
+                let mut distances = [0.0; WIDTH];
+                lanes.f_store(near, &mut distances);
+                let a = first(&distances, node, mask);
+                mask &= mask - 1;
+                if mask == 0 {
+                    child = Child(a as u32);
+                    continue;
+                }
+                let b = first(&distances, node, mask);
+                mask &= mask - 1;
+                let (a, b) = if a < b { (a, b) } else { (b, a) };
+                if mask == 0 {
+                    stack.push(b);
+                    child = Child(a as u32);
+                    continue;
+                }
+                // Sorted, farthest first.
+                let base = stack.len();
+                stack.push(b);
+                stack.push(a);
+                loop {
+                    let c = first(&distances, node, mask);
+                    mask &= mask - 1;
+                    stack.push(c);
+                    let new = stack.since(base);
+                    let mut i = new.len() - 1;
+                    while i > 0 && new[i - 1] < c {
+                        new[i] = new[i - 1];
+                        i -= 1;
+                    }
+                    new[i] = c;
+                    if mask == 0 {
+                        break;
+                    }
+                }
             }
         }
-        let mut mask = 0;
-        for lane in 0..WIDTH {
-            mask |= u32::from(near[lane] <= far[lane]) << lane;
+        loop {
+            let Some(entry) = stack.pop() else { return };
+            if f32::from_bits((entry >> 32) as u32) <= limit {
+                child = Child(entry as u32);
+                break;
+            }
         }
-        (near, mask)
     }
 }
 
-/// An inverse direction no larger in magnitude, by more than the rounding of the distance.
-fn shrunk(inverse: f64) -> f32 {
-    let x = inverse * (1.0 - SLACK);
-    if inverse.is_infinite() {
-        x as f32
-    } else if x > 0.0 {
-        // Casting may overflow: stay finite, for the distance must not be overestimated.
-        math::f32_below(x)
-    } else {
-        math::f32_above(x)
+impl Blocks {
+    /// Visits the blocks along the ray, nearest first, until nothing is left within the limit.
+    #[inline(always)]
+    pub(crate) fn walk<L: Lanes>(&self, lanes: L, ray: &Ray, limit: f64, cost: &mut Cost, visitor: &mut impl Visitor) {
+        walk(lanes, &self.nodes, ray, limit, cost, visitor);
     }
 }
 
-/// An inverse direction no smaller in magnitude, by more than the rounding of the distance.
-fn grown(inverse: f64) -> f32 {
-    let x = inverse * (1.0 + SLACK);
-    if x > 0.0 { math::f32_above(x) } else { math::f32_below(x) }
+/// The walk of a [`Bvh`] as a job.
+struct Walk<'a, F> {
+    tree: &'a Bvh,
+    ray: &'a Ray,
+    limit: f64,
+    cost: &'a mut Cost,
+    leaf: F,
 }
 
-/// Children yet to visit and the distances at which the ray enters them, nearest last.
-type Stack = SmallVec<[(f32, Child); 96]>;
+impl<F: FnMut(Range<usize>, &mut Cost) -> Option<f64>> Job for Walk<'_, F> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, lanes: L) {
+        walk(lanes, &self.tree.nodes, self.ray, self.limit, self.cost, &mut Runs(&mut self.leaf));
+    }
+}
+
+/// Leaves as runs of [`Bvh::order`].
+struct Runs<F>(F);
+
+impl<F: FnMut(Range<usize>, &mut Cost) -> Option<f64>> Visitor for Runs<F> {
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, _: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
+        (self.0)(leaf.first..leaf.first + leaf.len, cost)
+    }
+}
 
 impl Bvh {
     /// Visits leaves along the ray, nearest first, until nothing is left within the limit.
@@ -111,11 +254,12 @@ impl Bvh {
         cost: &mut Cost,
         mut leaf: impl FnMut(Range<usize>, f64, &mut Cost) -> f64,
     ) {
-        let mut limit = limit;
-        self.visit(ray, limit, cost, |run, cost| {
-            limit = leaf(run, limit, cost);
-            Some(limit)
-        });
+        let mut nearest = limit;
+        let leaf = |run: Range<usize>, cost: &mut Cost| {
+            nearest = leaf(run, nearest, cost);
+            Some(nearest)
+        };
+        lanes::run(Walk { tree: self, ray, limit, cost, leaf });
     }
 
     /// Whether `leaf` says yes for any leaf along the ray within the limit; stops at the first that does.
@@ -128,66 +272,19 @@ impl Bvh {
         mut leaf: impl FnMut(Range<usize>, &mut Cost) -> bool,
     ) -> bool {
         let mut found = false;
-        self.visit(ray, limit, cost, |run, cost| {
+        let leaf = |run: Range<usize>, cost: &mut Cost| {
             found = leaf(run, cost);
             (!found).then_some(limit)
-        });
+        };
+        lanes::run(Walk { tree: self, ray, limit, cost, leaf });
         found
-    }
-
-    /// The walk itself; `leaf` returns the new limit, or nothing to stop.
-    #[inline]
-    fn visit(
-        &self,
-        ray: &Ray,
-        limit: f64,
-        cost: &mut Cost,
-        mut leaf: impl FnMut(Range<usize>, &mut Cost) -> Option<f64>,
-    ) {
-        // A ray that goes nowhere, or comes from nowhere, meets nothing.
-        if self.nodes.is_empty() || !ray.is_valid() {
-            return;
-        }
-        let ray = BoxRay::new(ray);
-        let mut limit = math::f32_above(limit);
-        let mut stack = Stack::new();
-        stack.push((0.0, Child::node(0)));
-        while let Some((enter, child)) = stack.pop() {
-            if enter > limit {
-                continue;
-            }
-            if child.is_leaf() {
-                match leaf(child.run(), cost) {
-                    Some(nearer) => limit = math::f32_above(nearer),
-                    None => return,
-                }
-                continue;
-            }
-            let node = &self.nodes[child.0 as usize];
-            cost.nodes += 1;
-            let (near, mut mask) = ray.enter(node, limit);
-            let base = stack.len();
-            while mask != 0 {
-                let lane = mask.trailing_zeros() as usize;
-                mask &= mask - 1;
-                let entry = (near[lane], node.child[lane]);
-                stack.push(entry);
-                // Keep this node's children sorted, farthest first.
-                let mut i = stack.len() - 1;
-                while i > base && stack[i - 1].0 < entry.0 {
-                    stack[i] = stack[i - 1];
-                    i -= 1;
-                }
-                stack[i] = entry;
-            }
-        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{bvh::Box32, space::Bounds};
+    use crate::{bvh::Box32, math, space::Bounds};
     use glam::DVec3;
 
     /// A reproducible stream of numbers (splitmix64).

@@ -3,10 +3,9 @@
 //! `shading: AsModelled` smooths the triangles whose corners have normals in the file; `Flat` smooths none; `Smooth`
 //! smooths all, with the area-weighted mean normal of the faces around each vertex where the file has none.
 
-use super::shear::RayFrame;
+use super::{mesh_tree::MeshTree, shear::RayFrame};
 use crate::{
     asset::Asset,
-    bvh::{Box32, Bvh},
     choice,
     describe::{Describe, FieldVisitor, Spec, Value},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
@@ -15,9 +14,6 @@ use crate::{
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 use std::sync::{Arc, OnceLock};
-
-/// Most triangles in one leaf of a mesh's tree.
-const LEAF: usize = 4;
 
 /// Index of a normal or texture coordinate that a corner does not have.
 const ABSENT: u32 = u32::MAX;
@@ -48,17 +44,8 @@ pub struct TriangleMesh {
     uvs: Attribute<2>,
     slots: Vec<u16>,
     degenerate: usize,
-    tree: OnceLock<MeshTree>,
+    tree: OnceLock<Arc<MeshTree>>,
     smooth_normals: OnceLock<Vec<[f32; 3]>>,
-}
-
-/// The tree over a mesh's triangles, and the triangles in its leaf order.
-#[derive(Debug)]
-struct MeshTree {
-    bvh: Bvh,
-    vertices: Vec<[[f32; 3]; 3]>,
-    sphere: BoundingSphere,
-    magnitude: f64,
 }
 
 /// Why a mesh cannot be made.
@@ -164,7 +151,7 @@ impl TriangleMesh {
     #[must_use]
     pub fn bytes(&self) -> usize {
         let corners = self.triangles.len() + self.normals.corners.len() + self.uvs.corners.len();
-        let tree = self.tree.get().map_or(0, |tree| tree.bvh.bytes() + tree.vertices.len() * 36);
+        let tree = self.tree.get().map_or(0, |tree| tree.bytes());
         let values = (self.positions.len() + self.normals.values.len()) * 12 + self.uvs.values.len() * 8;
         values + corners * 12 + self.slots.len() * 2 + tree
     }
@@ -179,16 +166,10 @@ impl TriangleMesh {
         (b - a).cross(c - a)
     }
 
-    fn tree(&self) -> &MeshTree {
+    fn tree(&self) -> &Arc<MeshTree> {
         self.tree.get_or_init(|| {
-            let corners = |i: usize| self.triangles[i].map(|v| self.positions[v as usize]);
-            let bvh = Bvh::build((0..self.len()).map(|i| Box32::of_triangle(&corners(i))), LEAF);
-            let vertices: Vec<_> = bvh.order().iter().map(|&i| corners(i as usize)).collect();
-            let all = || vertices.iter().flatten().map(|v| point(*v));
-            let bounds = Bounds::of_points(all());
-            let sphere = BoundingSphere::about(bounds.center(), all());
-            let magnitude = bounds.min.abs().max(bounds.max.abs()).max_element();
-            MeshTree { bvh, vertices, sphere, magnitude }
+            let corners = |i: u32| self.triangles[i as usize].map(|v| self.positions[v as usize]);
+            Arc::new(MeshTree::build(self.len(), corners))
         })
     }
 
@@ -207,7 +188,7 @@ impl TriangleMesh {
     }
 }
 
-fn point(v: [f32; 3]) -> DVec3 {
+pub(super) fn point(v: [f32; 3]) -> DVec3 {
     DVec3::from_array(v.map(f64::from))
 }
 
@@ -283,12 +264,13 @@ impl Describe for Mesh {
 /// A placed mesh as the inner loop sees it.
 #[derive(Clone, Debug)]
 pub struct PackedMesh {
-    mesh: Arc<TriangleMesh>,
     placed: Arc<Placed>,
 }
 
 #[derive(Debug)]
 struct Placed {
+    tree: Arc<MeshTree>,
+    mesh: Arc<TriangleMesh>,
     shading: Shading,
     object_from_world: DAffine3,
     world_from_object: DAffine3,
@@ -306,50 +288,53 @@ impl Primitive for Mesh {
             return Err(Degenerate("its model has no triangles with an area".into()));
         }
         let tree = mesh.tree();
-        let bounds = tree.bvh.top_boxes().map(|b| b.transformed(world_from_object)).reduce(Bounds::union);
+        let bounds = tree.top_boxes().map(|b| b.transformed(world_from_object)).reduce(Bounds::union);
         let object_from_world = world_from_object.inverse();
         let reach = tree.magnitude * norm(&world_from_object.matrix3);
         let reach = reach + world_from_object.translation.abs().max_element();
         let placed = Placed {
+            tree: tree.clone(),
+            mesh: mesh.clone(),
             shading: self.shading,
             object_from_world,
             world_from_object: *world_from_object,
             cotangent: object_from_world.matrix3.transpose(),
             error: Surface::rounding(reach),
         };
-        Ok((Extent::Bounded(bounds.unwrap_or(Bounds::EMPTY)), PackedMesh { mesh, placed: Arc::new(placed) }))
+        Ok((Extent::Bounded(bounds.unwrap_or(Bounds::EMPTY)), PackedMesh { placed: Arc::new(placed) }))
     }
 
     #[inline]
     fn hit(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
-        let ray = ray.transformed(&packed.placed.object_from_world);
-        let tree = packed.mesh.tree();
-        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: t_max, best: None };
-        tree.bvh.walk(&ray, t_max, cost, |run, _, cost| search.test(run, cost));
-        search.best
+        let placed = &*packed.placed;
+        placed.tree.nearest(&placed.object_from_world, ray, t_max, cost)
     }
 
     fn hit_exhaustive(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
         let ray = ray.transformed(&packed.placed.object_from_world);
-        let tree = packed.mesh.tree();
-        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: t_max, best: None };
-        search.test(0..packed.mesh.len(), cost);
-        search.best
+        let (mesh, frame) = (&packed.placed.mesh, RayFrame::new(&ray));
+        cost.primitives += mesh.len() as u64;
+        let mut best: Option<Hit> = None;
+        for part in 0..mesh.len() {
+            let limit = best.map_or(t_max, |best| best.t);
+            if let Some(hit) = frame.hit(mesh.corners(part), limit)
+                && best.is_none_or(|best| hit.t < best.t)
+            {
+                best = Some(Hit { t: hit.t, part: part as u32 });
+            }
+        }
+        best
     }
 
     #[inline]
     fn blocks(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
-        let ray = ray.transformed(&packed.placed.object_from_world);
-        let tree = packed.mesh.tree();
-        let frame = RayFrame::new(&ray);
-        tree.bvh.any(&ray, t_max, cost, |run, cost| {
-            cost.primitives += run.len() as u64;
-            run.into_iter().any(|i| frame.hit(tree.vertices[i].map(point), t_max).is_some_and(|hit| hit.t < t_max))
-        })
+        let placed = &*packed.placed;
+        placed.tree.blocks(&placed.object_from_world, ray, t_max, cost)
     }
 
     fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
-        let (mesh, placed) = (&*packed.mesh, &*packed.placed);
+        let placed = &*packed.placed;
+        let mesh = &*placed.mesh;
         let corners = mesh.triangles[hit.part as usize];
         let vertices = mesh.points(corners);
         let object_ray = ray.transformed(&placed.object_from_world);
@@ -380,36 +365,9 @@ impl Primitive for Mesh {
     }
 
     fn bounding_sphere(packed: &PackedMesh, _: &Bounds) -> BoundingSphere {
-        let (sphere, to) = (packed.mesh.tree().sphere, packed.placed.world_from_object);
+        let (sphere, to) = (packed.placed.tree.sphere, packed.placed.world_from_object);
         let center = to.transform_point3(sphere.center);
         BoundingSphere::about(center, [center + DVec3::X * (sphere.radius * norm(&to.matrix3))])
-    }
-}
-
-/// A search for the nearest triangle.
-struct Search<'a> {
-    tree: &'a MeshTree,
-    frame: RayFrame,
-    limit: f64,
-    best: Option<Hit>,
-}
-
-impl Search<'_> {
-    /// Tests a run of triangles; returns the distance beyond which nothing matters.
-    #[inline]
-    fn test(&mut self, run: core::ops::Range<usize>, cost: &mut Cost) -> f64 {
-        cost.primitives += run.len() as u64;
-        for i in run {
-            if let Some(hit) = self.frame.hit(self.tree.vertices[i].map(point), self.limit) {
-                let hit = Hit { t: hit.t, part: self.tree.bvh.order()[i] };
-                // On equal distance the lowest index, whatever the order of the walk.
-                if self.best.is_none_or(|best| hit.t < best.t || hit.part < best.part) {
-                    self.best = Some(hit);
-                    self.limit = hit.t;
-                }
-            }
-        }
-        self.limit
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod cuboid;
 mod mesh;
+mod mesh_tree;
 mod plane;
 mod shear;
 mod sphere;

@@ -6,13 +6,14 @@
 //! difference of products can be falsely zero but never has the wrong sign, so with zero counting as inside no ray
 //! slips between them. Contraction to fused multiply-add would break this.
 
-use crate::space::Ray;
+use crate::{lanes::Lanes, space::Ray};
 use glam::DVec3;
 
 /// A ray prepared for triangle tests.
 #[derive(Clone, Copy, Debug)]
 pub struct RayFrame {
-    origin: DVec3,
+    /// Where it starts, in the order of its axes.
+    start: [f64; 3],
     kx: usize,
     ky: usize,
     kz: usize,
@@ -35,28 +36,27 @@ impl RayFrame {
     #[must_use]
     #[inline]
     pub fn new(ray: &Ray) -> Self {
-        let d = ray.direction;
-        let size = d.abs();
-        let kz = if size.x >= size.y && size.x >= size.z {
-            0
-        } else if size.y >= size.z {
-            1
-        } else {
-            2
-        };
-        let next = (kz + 1) % 3;
-        // Keep the winding whichever way the ray runs along its main axis.
-        let (kx, ky) = if d[kz] < 0.0 { ((next + 1) % 3, next) } else { (next, (next + 1) % 3) };
+        let (d, size) = (ray.direction.to_array(), ray.direction.abs());
+        // Without branches: nothing foretells them.
+        let yz = if size.y >= size.z { 1 } else { 2 };
+        let kz = if size.x >= size.y && size.x >= size.z { 0 } else { yz };
+        // The axes that follow; the winding is kept whichever way the ray runs along its main axis.
+        let [next, last] = [[1, 2], [2, 0], [0, 1]][kz];
+        let backward = d[kz] < 0.0;
+        let (kx, ky) = (if backward { last } else { next }, if backward { next } else { last });
         let scale_z = 1.0 / d[kz];
-        Self { origin: ray.origin, kx, ky, kz, shear_x: d[kx] * scale_z, shear_y: d[ky] * scale_z, scale_z }
+        let origin = ray.origin.to_array();
+        let start = [origin[kx], origin[ky], origin[kz]];
+        Self { start, kx, ky, kz, shear_x: d[kx] * scale_z, shear_y: d[ky] * scale_z, scale_z }
     }
 
     /// A vertex in the ray's frame: x and y sheared, z still unscaled.
     #[inline]
     fn place(&self, vertex: DVec3) -> [f64; 3] {
-        let v = vertex - self.origin;
-        let z = v[self.kz];
-        [v[self.kx] - self.shear_x * z, v[self.ky] - self.shear_y * z, z * self.scale_z]
+        let v = vertex.to_array();
+        let z = v[self.kz] - self.start[2];
+        let (x, y) = (v[self.kx] - self.start[0], v[self.ky] - self.start[1]);
+        [x - self.shear_x * z, y - self.shear_y * z, z * self.scale_z]
     }
 
     /// Twice the signed areas that the ray cuts off at the edges opposite to each vertex.
@@ -95,6 +95,64 @@ impl RayFrame {
         let t = max(nearest, min(farthest, t));
         if t > 0.0 && t <= t_max { Some(TriangleHit { t, weights: [u / det, v / det, w / det] }) } else { None }
     }
+}
+
+/// Four triangles: their vertices by vertex, axis and triangle.
+#[derive(Clone, Copy, Debug)]
+#[repr(C, align(16))]
+pub(crate) struct Block(pub(crate) [[[f32; 4]; 3]; 3]);
+
+impl RayFrame {
+    /// [`RayFrame::place`] of four vertices.
+    #[inline(always)]
+    fn place_block<L: Lanes>(&self, l: L, vertices: &[[f32; 4]; 3]) -> [L::D; 3] {
+        let x = l.d_sub(l.d_widen(&vertices[self.kx]), l.d_splat(self.start[0]));
+        let y = l.d_sub(l.d_widen(&vertices[self.ky]), l.d_splat(self.start[1]));
+        let z = l.d_sub(l.d_widen(&vertices[self.kz]), l.d_splat(self.start[2]));
+        let x = l.d_sub(x, l.d_mul(l.d_splat(self.shear_x), z));
+        let y = l.d_sub(y, l.d_mul(l.d_splat(self.shear_y), z));
+        [x, y, z]
+    }
+
+    /// [`RayFrame::hit`] of four triangles: which are hit within `t_max`, and at what distances.
+    #[inline(always)]
+    pub(crate) fn hit_block<L: Lanes>(&self, lanes: L, block: &Block, t_max: f64) -> Option<(u32, [f64; 4])> {
+        let l = lanes;
+        let [a, b, c] = &block.0;
+        let (a, b, c) = (self.place_block(l, a), self.place_block(l, b), self.place_block(l, c));
+        let (u, v, w) = (cross(l, &c, &b), cross(l, &a, &c), cross(l, &b, &a));
+        let zero = l.d_splat(0.0);
+        // Where a sign is NaN, the determinant is too.
+        let negative = l.d_lt(l.d_min(l.d_min(u, v), w), zero);
+        let positive = l.d_lt(zero, l.d_max(l.d_max(u, v), w));
+        if negative & positive == 0b1111 {
+            return None;
+        }
+        let det = l.d_add(l.d_add(u, v), w);
+        let size = l.d_abs(det);
+        let proper = l.d_lt(zero, size) & l.d_lt(size, l.d_splat(f64::INFINITY));
+        let scale_z = l.d_splat(self.scale_z);
+        let (az, bz, cz) = (l.d_mul(a[2], scale_z), l.d_mul(b[2], scale_z), l.d_mul(c[2], scale_z));
+        let t = l.d_add(l.d_add(l.d_mul(u, az), l.d_mul(v, bz)), l.d_mul(w, cz));
+        let t = l.d_div(t, det);
+        let nearest = l.d_min(l.d_min(az, bz), cz);
+        let farthest = l.d_max(l.d_max(az, bz), cz);
+        let t = l.d_max(nearest, l.d_min(farthest, t));
+        let within = l.d_lt(zero, t) & l.d_le(t, l.d_splat(t_max));
+        let hits = !(negative & positive) & proper & within;
+        if hits == 0 {
+            return None;
+        }
+        let mut distances = [0.0; 4];
+        l.d_store(t, &mut distances);
+        Some((hits, distances))
+    }
+}
+
+/// An edge function of four triangles.
+#[inline(always)]
+fn cross<L: Lanes>(l: L, p: &[L::D; 3], q: &[L::D; 3]) -> L::D {
+    l.d_sub(l.d_mul(p[0], q[1]), l.d_mul(p[1], q[0]))
 }
 
 #[inline]

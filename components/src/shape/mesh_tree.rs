@@ -1,0 +1,159 @@
+//! The tree over a mesh's triangles, and the search for hits in it.
+
+use super::{
+    mesh::point,
+    shear::{Block, RayFrame},
+};
+use crate::{
+    bvh::{BLOCK, Blocks, Box32, Bvh, Leaf, Visitor},
+    lanes::{self, Job, Lanes},
+    primitive::{Cost, Hit},
+    space::{BoundingSphere, Bounds, Ray},
+};
+use glam::DAffine3;
+
+/// A tree, and the triangles in the order of its leaves: four in a block.
+#[derive(Debug)]
+pub(super) struct MeshTree {
+    tree: Blocks,
+    blocks: Vec<Block>,
+    /// Around all triangles, object space.
+    pub(super) sphere: BoundingSphere,
+    /// Largest coordinate of a vertex.
+    pub(super) magnitude: f64,
+}
+
+impl MeshTree {
+    /// Builds the tree over `len` triangles.
+    pub(super) fn build(len: usize, corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Self {
+        let tree = Bvh::build((0..len).map(|i| Box32::of_triangle(&corners(i as u32))), BLOCK);
+        let tree = Blocks::new(tree);
+        let block = |triangles: &[u32; BLOCK]| {
+            let triangles = triangles.map(&corners);
+            Block([0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| triangles.map(|triangle| triangle[vertex][axis]))))
+        };
+        let blocks = tree.order().iter().map(block).collect();
+        let all = || (0..len).flat_map(|i| corners(i as u32)).map(point);
+        let bounds = Bounds::of_points(all());
+        let sphere = BoundingSphere::about(bounds.center(), all());
+        let magnitude = bounds.min.abs().max(bounds.max.abs()).max_element();
+        Self { tree, blocks, sphere, magnitude }
+    }
+
+    /// Up to eight boxes that together hold all triangles, object space.
+    pub(super) fn top_boxes(&self) -> impl Iterator<Item = Bounds> {
+        self.tree.top_boxes()
+    }
+
+    /// Bytes it occupies.
+    pub(super) fn bytes(&self) -> usize {
+        self.tree.bytes() + self.blocks.len() * size_of::<Block>()
+    }
+
+    /// The nearest hit within `t_max`, the lowest triangle among equally near ones; the ray is in the world.
+    pub(super) fn nearest(&self, to: &DAffine3, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        lanes::run(Nearest { tree: self, object_from_world: to, ray, t_max, cost })
+    }
+
+    /// Whether anything is hit before `t_max`; the ray is in the world.
+    pub(super) fn blocks(&self, to: &DAffine3, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
+        lanes::run(Blocked { tree: self, object_from_world: to, ray, t_max, cost })
+    }
+}
+
+/// The search for the nearest triangle.
+struct Nearest<'a> {
+    tree: &'a MeshTree,
+    object_from_world: &'a DAffine3,
+    ray: &'a Ray,
+    t_max: f64,
+    cost: &'a mut Cost,
+}
+
+impl Job for Nearest<'_> {
+    type Output = Option<Hit>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Option<Hit> {
+        let ray = self.ray.transformed(self.object_from_world);
+        let tree = self.tree;
+        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: self.t_max, best: None };
+        tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
+        search.best
+    }
+}
+
+struct Search<'a> {
+    tree: &'a MeshTree,
+    frame: RayFrame,
+    limit: f64,
+    best: Option<Hit>,
+}
+
+impl Visitor for Search<'_> {
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
+        cost.primitives += leaf.len as u64;
+        if let Some((mut hits, distances)) = self.frame.hit_block(lanes, &self.tree.blocks[leaf.first], self.limit) {
+            let order = &self.tree.tree.order()[leaf.first];
+            while hits != 0 {
+                let lane = hits.trailing_zeros() as usize % BLOCK;
+                hits &= hits - 1;
+                let hit = Hit { t: distances[lane], part: order[lane] };
+                // On equal distance the lowest index, whatever the order of the walk.
+                if self.best.is_none_or(|best| hit.t < best.t || hit.t == best.t && hit.part < best.part) {
+                    self.best = Some(hit);
+                    self.limit = hit.t;
+                }
+            }
+        }
+        Some(self.limit)
+    }
+}
+
+/// The search for any triangle before the end of a ray.
+struct Blocked<'a> {
+    tree: &'a MeshTree,
+    object_from_world: &'a DAffine3,
+    ray: &'a Ray,
+    t_max: f64,
+    cost: &'a mut Cost,
+}
+
+impl Job for Blocked<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> bool {
+        let ray = self.ray.transformed(self.object_from_world);
+        let tree = self.tree;
+        let mut search = AnySearch { tree, frame: RayFrame::new(&ray), t_max: self.t_max, found: false };
+        tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
+        search.found
+    }
+}
+
+struct AnySearch<'a> {
+    tree: &'a MeshTree,
+    frame: RayFrame,
+    t_max: f64,
+    found: bool,
+}
+
+impl Visitor for AnySearch<'_> {
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
+        cost.primitives += leaf.len as u64;
+        if let Some((mut hits, distances)) = self.frame.hit_block(lanes, &self.tree.blocks[leaf.first], self.t_max) {
+            while hits != 0 {
+                let lane = hits.trailing_zeros() as usize % BLOCK;
+                hits &= hits - 1;
+                if distances[lane] < self.t_max {
+                    self.found = true;
+                    return None;
+                }
+            }
+        }
+        Some(self.t_max)
+    }
+}
