@@ -1,10 +1,11 @@
 //! What may be written on the command line.
 
+use super::{diff::DiffArguments, fmt::FmtArguments, repro::ReproArguments};
 use crate::Region;
 use clap::{Args, Parser, Subcommand};
 use snell_components::{
     describe::Choice,
-    settings::{Antialias, MAX_GRID, MAX_SIZE, MAX_SUBDIVISIONS},
+    settings::{Antialias, MAX_GRID, MAX_SIZE, MAX_SUBDIVISIONS, Settings},
 };
 use std::path::PathBuf;
 
@@ -22,6 +23,9 @@ pub(super) enum Command {
     Hash(HashArguments),
     Check(CheckArguments),
     Why(WhyArguments),
+    Diff(DiffArguments),
+    Repro(ReproArguments),
+    Fmt(FmtArguments),
 }
 
 /// Render a scene to a PNG or OpenEXR file
@@ -135,6 +139,10 @@ pub(super) struct Drawing {
 /// What takes the place of settings of the scene.
 #[derive(Args, Debug, Default)]
 pub(super) struct Changes {
+    /// All settings.
+    #[arg(skip)]
+    pub(super) settings: Option<Settings>,
+
     /// Width and height in pixels, in place of the scene's
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub(super) size: Option<Size>,

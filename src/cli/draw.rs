@@ -107,6 +107,9 @@ fn timed<R>(work: impl FnOnce() -> R) -> (R, f64) {
 
 /// What the command line gives takes the place of what the scene gives.
 pub(super) fn apply(changes: &Changes, settings: &mut Settings) {
+    if let Some(all) = &changes.settings {
+        *settings = all.clone();
+    }
     if let Some(size) = changes.size {
         (settings.width, settings.height) = (size.width, size.height);
     }

@@ -13,16 +13,19 @@
 //! | exit code | meaning |
 //! |---|---|
 //! | 0 | done |
-//! | 1 | a scene has faults, or a file cannot be written |
-//! | 2 | the command is not used as it is meant |
+//! | 1 | a scene has faults, a file cannot be written, or what was compared is not alike |
+//! | 2 | the command is not used as it is meant, or there is nothing to compare |
 //! | 130 | stopped by Ctrl-C; the picture holds what was drawn by then |
 
 mod args;
 mod check;
+mod diff;
 mod draw;
+mod fmt;
 mod machine;
 mod progress;
 mod render;
+mod repro;
 mod stats;
 mod why;
 
@@ -53,6 +56,9 @@ fn run_with(mut renderer: Renderer, args: impl IntoIterator<Item = OsString>, co
         Ok(Arguments { command: Command::Hash(args) }) => render::hash(&mut renderer, &args, console),
         Ok(Arguments { command: Command::Check(args) }) => check::check(&mut renderer, &args, console),
         Ok(Arguments { command: Command::Why(args) }) => why::why(&mut renderer, &args, console),
+        Ok(Arguments { command: Command::Diff(args) }) => diff::diff(&args, console),
+        Ok(Arguments { command: Command::Fmt(args) }) => fmt::fmt(&args, console),
+        Ok(Arguments { command: Command::Repro(args) }) => repro::repro(&mut renderer, &args, console),
         // Help and version arrive here, too; nothing can be told of them if the terminal is gone.
         Err(answer) => {
             let _ = answer.print();
@@ -104,6 +110,8 @@ enum Failure {
     Work(String),
     /// The command is not used as it is meant.
     Usage(String),
+    /// Things that were compared are not alike, which was told.
+    Different,
     /// The user stopped it; what was kept.
     Stopped(String),
 }
@@ -128,6 +136,7 @@ impl Failure {
                 console.error(why);
                 USAGE
             }
+            Self::Different => FAULT,
             Self::Stopped(kept) => {
                 console.note(kept);
                 STOPPED

@@ -1,8 +1,12 @@
-//! How far one picture is from another.
+//! How far one picture is from another, and whether they are alike.
 
+mod comparison;
 mod flip;
+mod shown;
 
+pub use comparison::{Comparison, Level, Pixel};
 pub use flip::{PIXELS_PER_DEGREE, flip};
+pub use shown::shown;
 
 use crate::render::Picture;
 use serde::{Deserialize, Serialize};

@@ -1,8 +1,9 @@
 //! Linear light → sRGB levels.
 
+use super::Format;
 use crate::render::Picture;
 use rayon::prelude::*;
-use snell_components::color::srgb_from_linear;
+use snell_components::color::{linear_from_srgb, srgb_from_linear};
 
 /// The picture sRGB-encoded in 8 bits, rounded to nearest; light beyond 0..=1 is clamped.
 #[must_use]
@@ -23,10 +24,25 @@ fn level(linear: f32, max: f64) -> f64 {
     srgb_from_linear(f64::from(linear)) * max + 0.5
 }
 
+/// The picture as a file of a format gives it back, but for the rounding of what lies beyond white.
+#[must_use]
+pub fn as_read(picture: &Picture, format: Format) -> Picture {
+    let linear = |level: u16, white: u16| linear_from_srgb(f64::from(level) / f64::from(white)) as f32;
+    let pixels = match format {
+        Format::Png8 => {
+            srgb8(picture).into_iter().map(|levels| levels.map(|level| linear(level.into(), 255))).collect()
+        }
+        Format::Png16 => {
+            srgb16(picture).into_iter().map(|levels| levels.map(|level| linear(level, u16::MAX))).collect()
+        }
+        Format::Exr => picture.pixels.clone(),
+    };
+    Picture { pixels, ..*picture }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use snell_components::color::linear_from_srgb;
 
     #[test]
     fn every_level_survives_linear_f32() {

@@ -33,11 +33,14 @@ pub mod key {
 pub struct Metadata(BTreeMap<String, String>);
 
 impl Metadata {
+    /// Name and version of this program.
+    pub const SOFTWARE: &str = concat!("Snell ", env!("CARGO_PKG_VERSION"));
+
     /// All that there is to say of a frame.
     #[must_use]
     pub fn of(frame: &Frame, settings: &Settings, scene: &Path) -> Self {
         let mut this = Self::default();
-        this.insert(key::SOFTWARE, concat!("Snell ", env!("CARGO_PKG_VERSION")));
+        this.insert(key::SOFTWARE, Self::SOFTWARE);
         this.insert(key::SCENE, scene.to_string_lossy());
         this.insert(key::SETTINGS, settings_text(settings));
         let region = frame.region;

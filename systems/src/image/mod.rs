@@ -9,7 +9,7 @@ mod file;
 mod metadata;
 mod png;
 
-pub use encode::{srgb8, srgb16};
+pub use encode::{as_read, srgb8, srgb16};
 pub use file::{FileError, check_writable, write_atomically};
 pub use metadata::{Metadata, key};
 

@@ -12,5 +12,8 @@ mod assets;
 
 mod scene;
 
+mod format;
+
 pub use fault::{Fault, Faults, Notice, Position, nearest};
+pub use format::format_scene;
 pub use scene::{read_scene, read_scene_text};

@@ -57,6 +57,17 @@ pub fn read_scene_text(world: &mut World, text: &str, path: &Path) -> Result<Vec
     read(world, &sources, report)
 }
 
+/// Checks that a text is RON, whatever it says.
+///
+/// # Errors
+/// The first place where it is not.
+pub(super) fn check_syntax(text: &str, path: &Path) -> Result<(), Faults> {
+    let Err((offset, message)) = node::parse(text) else { return Ok(()) };
+    let mut report = Report::default();
+    report.add(Place { file: 0, offset }, message);
+    Err(report.into_faults(&[Source::new(path.into(), String::new(), text.into())]))
+}
+
 fn read(world: &mut World, sources: &[Source], mut report: Report) -> Result<Vec<Notice>, Faults> {
     let empty = Registry::default();
     let registry = world.get_resource().unwrap_or(&empty);
