@@ -58,7 +58,7 @@ fn any_layout_of_a_text_is_laid_out_alike_again() {
     // Every token in a line of its own.
     let text = include_str!("../../../../scenes/gallery/behind-glass.ron");
     let torn = |between: &str| -> String {
-        let tokens = tokens::tokens(text).expect("tokens");
+        let tokens = tokens(text).expect("tokens");
         tokens
             .iter()
             .map(|token| format!("{}{}", token.text, if token.is_line_comment() { "\n" } else { between }))
