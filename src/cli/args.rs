@@ -2,7 +2,8 @@
 
 use super::{diff::DiffArguments, fmt::FmtArguments, repro::ReproArguments};
 use crate::Region;
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
+use snell_charts::study::{ALL as STUDIES, Kind, Study};
 use snell_components::{
     describe::Choice,
     settings::{Antialias, MAX_GRID, MAX_SIZE, MAX_SUBDIVISIONS, Settings},
@@ -26,6 +27,7 @@ pub(super) enum Command {
     Diff(DiffArguments),
     Repro(ReproArguments),
     Fmt(FmtArguments),
+    Chart(ChartArguments),
 }
 
 /// Render a scene to a PNG or OpenEXR file
@@ -39,6 +41,7 @@ Examples:
   snell render scene.ron --size 320x240               a quick look
   snell render scene.ron --region 100,80,64,64        these pixels only
   snell render scene.ron --error 1/255                as exact as eight bits show, with the fewest rays
+  snell render scene.ron --time 10                    as exact as ten seconds allow
   snell render scene.ron --stats stats.json --quiet   for programs")]
 pub(super) struct RenderArguments {
     /// Picture file, .png or .exr [default: the scene's name with .png, in this folder]
@@ -114,6 +117,47 @@ pub(super) struct WhyArguments {
     pub(super) svg: Option<PathBuf>,
 }
 
+/// Chart speed against accuracy for a scene
+///
+/// Measures settings against a converged picture and draws time against error: SVG, PNG, tables as CSV and JSON, and a page
+/// that puts them together. Ends with advice.
+#[derive(Args, Debug)]
+#[command(after_help = studies())]
+pub(super) struct ChartArguments {
+    /// Scene file; ready studies need none
+    pub(super) scene: Option<PathBuf>,
+
+    /// Folder for the files [default: the scene's name with -charts]
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+
+    /// What to study [default: all that the scene has something for; without a scene the ready ones]
+    #[arg(long, value_name = "NAME", num_args = 1.., value_parser = PossibleValuesParser::new(STUDIES.iter().map(|study| study.name)))]
+    pub(super) study: Vec<String>,
+
+    /// Smaller pictures, fewer settings, one run
+    #[arg(long)]
+    pub(super) quick: bool,
+
+    /// Width of the pictures in pixels [default: 200, quick 80]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(8..=4096))]
+    pub(super) width: Option<u32>,
+
+    /// Runs of each setting [default: 5, quick 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub(super) runs: Option<u32>,
+}
+
+/// The names of the studies and what they are about.
+fn studies() -> String {
+    let line = |study: &Study| {
+        let ready = if matches!(study.kind, Kind::Ready(_)) { " (ready)" } else { "" };
+        format!("  {:<14}{}{ready}", study.name, study.about)
+    };
+    let studies: Vec<_> = STUDIES.iter().map(line).collect();
+    format!("Studies:\n{}\n\nExample:\n  snell chart scene.ron -o charts --quick", studies.join("\n"))
+}
+
 /// How a scene is drawn.
 #[derive(Args, Debug)]
 pub(super) struct Drawing {
@@ -122,6 +166,13 @@ pub(super) struct Drawing {
 
     #[command(flatten)]
     pub(super) changes: Changes,
+
+    /// Seconds, from the start of the command, for a picture as exact as they allow
+    ///
+    /// The error falls until the time is over, so the picture depends on the machine; the report tells which error was
+    /// reached.
+    #[arg(long, value_name = "T", value_parser = time, conflicts_with_all = ["antialias", "error"])]
+    pub(super) time: Option<f64>,
 
     /// Draw a part of the picture; the file is a crop of the whole, with the size of the part
     #[arg(long, value_name = "X,Y,W,H", value_parser = region)]
@@ -258,6 +309,13 @@ fn error(text: &str) -> Result<f64, String> {
     match error {
         Some(error) if (0.0..=1.0).contains(&error) => Ok(error),
         _ => Err("expected a number from 0 to 1, such as 0.004 or 1/255".into()),
+    }
+}
+
+fn time(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(time) if (0.0..=1e6).contains(&time) => Ok(time),
+        _ => Err("expected seconds, 0 to 1000000".into()),
     }
 }
 

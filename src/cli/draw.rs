@@ -8,8 +8,14 @@ use super::{
     stats::Seconds,
 };
 use crate::{Frame, Options, Region, Renderer, Snapshot, Stop, render};
+use snell_charts::deadline::{Timed, render_until};
 use snell_components::settings::{Antialias, Settings};
-use std::{path::Path, process, sync::Arc, time::Instant};
+use std::{
+    path::Path,
+    process,
+    sync::Arc,
+    time::{Duration, Instant},
+};
 
 /// A frame and how it came about.
 pub(super) struct Drawn {
@@ -17,6 +23,8 @@ pub(super) struct Drawn {
     pub(super) frame: Frame,
     pub(super) seconds: Seconds,
     pub(super) threads: usize,
+    /// What a time allowed for, if there was one.
+    pub(super) timed: Option<String>,
 }
 
 impl Drawn {
@@ -28,6 +36,7 @@ impl Drawn {
 
 /// Loads a scene and draws it as the options say.
 pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console<'_>) -> Result<Drawn, Failure> {
+    let start = Instant::now();
     let pool = Pool::new(how.threads)?;
     let progress = Progress::new(how.quiet);
 
@@ -39,6 +48,10 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
 
     let settings = &mut *renderer.settings();
     apply(&how.changes, settings);
+    if how.time.is_some() {
+        // Any error will do: the snapshot then knows what is needed to cut rays.
+        settings.error = 1.0;
+    }
     let region = region(how, settings)?;
     check_memory(region, machine::available_memory())?;
 
@@ -51,7 +64,17 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
     let on_tile = |_: &_, so_far: crate::Progress| progress.set(so_far.done);
     let options = Options { region: Some(region), on_tile: Some(&on_tile), ..Options::default() };
     stop_on_interrupt(&options.stop);
-    let (frame, trace) = timed(|| pool.run(|| render(&snapshot, &options)));
+    let ((frame, snapshot, told), trace) = timed(|| match how.time {
+        None => (pool.run(|| render(&snapshot, &options)), snapshot, None),
+        Some(time) => {
+            let end = start + Duration::from_secs_f64(time);
+            let told = |so_far: crate::Progress| progress.set(so_far.done);
+            let timed = pool.run(|| render_until(&snapshot, end, region, &options.stop, &told));
+            let words = told_of_time(time, start.elapsed().as_secs_f64(), &timed);
+            // As if the scene had asked for what was reached.
+            (timed.frame, Arc::new(timed.snapshot), Some(words))
+        }
+    });
     drop(progress);
 
     if frame.counts.not_finite > 0 {
@@ -63,7 +86,28 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
         console.warn(of_scene(&how.scene, what));
     }
     let threads = pool.run(rayon::current_num_threads);
-    Ok(Drawn { snapshot, frame, seconds: Seconds { load, build, trace }, threads })
+    Ok(Drawn { snapshot, frame, seconds: Seconds { load, build, trace }, threads, timed: told })
+}
+
+/// What became of a time that was given.
+fn told_of_time(time: f64, taken: f64, timed: &Timed) -> String {
+    let in_255ths = |error: f64| format!("{:.2}/255", 255.0 * error);
+    let mut told = format!("{taken:.2} s of {time} s; error {}", in_255ths(timed.error));
+    if timed.turns == 0 {
+        return format!("{taken:.2} s of {time} s; stopped before the first turn was done");
+    }
+    if let Some((error, share)) = timed.better {
+        told += &format!(", {} in {:.0} % of the picture", in_255ths(error), 100.0 * share);
+    }
+    if taken > 1.1 * time {
+        told += &format!(
+            "; the time is too short: loading, building and one turn with error {} take as long",
+            in_255ths(timed.error)
+        );
+    } else if timed.exhausted {
+        told += "; nothing more is to be gained";
+    }
+    told
 }
 
 /// A message that concerns a scene as a whole.

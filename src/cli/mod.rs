@@ -18,6 +18,7 @@
 //! | 130 | stopped by Ctrl-C; the picture holds what was drawn by then |
 
 mod args;
+mod chart;
 mod check;
 mod diff;
 mod draw;
@@ -59,6 +60,7 @@ fn run_with(mut renderer: Renderer, args: impl IntoIterator<Item = OsString>, co
         Ok(Arguments { command: Command::Diff(args) }) => diff::diff(&args, console),
         Ok(Arguments { command: Command::Fmt(args) }) => fmt::fmt(&args, console),
         Ok(Arguments { command: Command::Repro(args) }) => repro::repro(&mut renderer, &args, console),
+        Ok(Arguments { command: Command::Chart(args) }) => chart::chart(renderer, &args, console),
         // Help and version arrive here, too; nothing can be told of them if the terminal is gone.
         Err(answer) => {
             let _ = answer.print();

@@ -27,7 +27,10 @@ pub(super) fn render(
 
     let drawn = draw(renderer, &args.drawing, console)?;
     let picture = (drawn.frame.done > 0).then_some(&output);
-    let metadata = Metadata::of(&drawn.frame, &drawn.snapshot.settings, scene);
+    let mut metadata = Metadata::of(&drawn.frame, &drawn.snapshot.settings, scene);
+    if let Some(told) = &drawn.timed {
+        metadata.insert(key::TIME, told);
+    }
     if let Some(file) = picture {
         image::write(file, format, &drawn.frame.picture, &metadata).map_err(work)?;
     }
@@ -82,7 +85,7 @@ fn work(why: FileError) -> Failure {
 }
 
 fn stats(drawn: &Drawn, metadata: &Metadata, picture: Option<&PathBuf>) -> Stats {
-    let Drawn { snapshot, frame, seconds, threads } = drawn;
+    let Drawn { snapshot, frame, seconds, threads, timed } = drawn;
     let told = |key| metadata.get(key).unwrap_or_default().to_string();
     let rays = frame.counts.rays();
     Stats {
@@ -100,6 +103,7 @@ fn stats(drawn: &Drawn, metadata: &Metadata, picture: Option<&PathBuf>) -> Stats
         rays,
         counts: frame.counts,
         threads: *threads,
+        time: timed.clone(),
         seconds: *seconds,
         // A trace that is too short to be measured took a nanosecond.
         rays_per_second: rays as f64 / seconds.trace.max(1e-9),

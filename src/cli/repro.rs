@@ -57,7 +57,7 @@ pub(super) fn repro(renderer: &mut Renderer, args: &ReproArguments, console: &mu
         return Err(Failure::Usage(message));
     }
     let changes = Changes { settings: Some(settings), ..Changes::default() };
-    let how = Drawing { scene, changes, region, threads: args.threads, quiet: args.quiet };
+    let how = Drawing { scene, changes, time: None, region, threads: args.threads, quiet: args.quiet };
     let drawn = draw(renderer, &how, console)?;
     if !drawn.frame.is_complete() {
         return Err(Failure::Stopped(format!("stopped after {} % of the picture", drawn.percent())));

@@ -35,6 +35,9 @@ pub struct Stats {
     pub counts: Counts,
     /// Threads.
     pub threads: usize,
+    /// What the time that was given allowed for, if one was.
+    #[serde(default)]
+    pub time: Option<String>,
     /// Time of the stages.
     pub seconds: Seconds,
     /// Rays in a second of the trace.
@@ -84,6 +87,9 @@ time     {load:.3} s load, {build:.3} s build, {trace:.3} s trace on {threads}
 speed    {:.2} million rays a second",
             self.rays_per_second / 1e6,
         )?;
+        if let Some(time) = &self.time {
+            write!(f, "\ntime     {time}")?;
+        }
         if c.cut + c.too_deep > 0 {
             let [cut, too_deep] = [c.cut, c.too_deep].map(grouped);
             write!(f, "\nskipped  {cut} rays cut")?;

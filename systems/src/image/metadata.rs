@@ -19,6 +19,8 @@ pub mod key {
     pub const REGION: &str = "snell:region";
     /// Pixels drawn and pixels asked for, as `drawn/asked`; absent if all were drawn.
     pub const DRAWN: &str = "snell:drawn";
+    /// What the time that was given allowed for, in words; absent unless a time was given.
+    pub const TIME: &str = "snell:time";
     /// The counts of the render, as JSON.
     pub const COUNTS: &str = "snell:counts";
     /// SHA-256 of the picture in linear light, see [`crate::render::Picture::hash`].
@@ -27,8 +29,8 @@ pub mod key {
 
 /// Text by key, a line each.
 ///
-/// It holds nothing that does not follow from the scene and the options: no time, no machine, no number of threads. So
-/// the file of a picture is the same to the last bit wherever and whenever it is made.
+/// It holds nothing that does not follow from the scene and the options: no date, no machine, no number of threads. So
+/// the file of a picture is the same to the last bit wherever and whenever it is made, unless it was made for a time.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Metadata(BTreeMap<String, String>);
 

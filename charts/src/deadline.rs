@@ -1,0 +1,140 @@
+//! The best picture for a time.
+//!
+//! The picture is drawn again and again, each time within a smaller error, until the time is over; tiles of the last,
+//! unfinished turn take the place of what they improve. Nothing has to be foreseen, so a machine that becomes slow while
+//! it works only makes the picture coarser.
+
+use snell_components::settings::{Antialias, MAX_SUBDIVISIONS};
+use snell_systems::{
+    render::{Frame, Options, Picture, Progress, Region, Stop, Tile, render},
+    snapshot::Snapshot,
+};
+use std::{
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+        mpsc::{self, RecvTimeoutError},
+    },
+    thread,
+    time::{Duration, Instant},
+};
+
+/// The error of the first turn.
+const FIRST: f64 = 0.25;
+
+/// The error below which no turn goes.
+const LEAST: f64 = 1.0 / 4096.0;
+
+/// How often the user's stop is looked at.
+const TICK: Duration = Duration::from_millis(20);
+
+/// A picture that a time allowed for.
+#[derive(Clone)]
+pub struct Timed {
+    /// The picture; it is complete unless the first turn was stopped. The counts are those of all turns.
+    pub frame: Frame,
+    /// The scene with the settings that give the picture, but for what is better.
+    pub snapshot: Snapshot,
+    /// The error that is kept in the whole picture.
+    pub error: f64,
+    /// The smaller error that is kept in a part of it, and the share of that part.
+    pub better: Option<(f64, f64)>,
+    /// Seconds that it took.
+    pub seconds: f64,
+    /// Turns that were finished.
+    pub turns: u32,
+    /// Whether it ended since nothing more was to be gained.
+    pub exhausted: bool,
+}
+
+/// Renders until `end`.
+///
+/// The first turn is finished even if it takes longer, so that there is a picture; `stop` ends it all the same. `told`
+/// hears of every tile. `snapshot` must have been extracted with an error above zero, so that rays can be cut.
+#[must_use]
+pub fn render_until(
+    snapshot: &Snapshot,
+    end: Instant,
+    region: Region,
+    stop: &Stop,
+    told: &(dyn Fn(Progress) + Sync),
+) -> Timed {
+    let start = Instant::now();
+    let mut snapshot = snapshot.clone();
+    let settings = &mut snapshot.settings;
+    (settings.antialias, settings.subdivisions, settings.error) = (Antialias::Adaptive, MAX_SUBDIVISIONS, FIRST);
+    let on_tile = |_: &Tile, progress: Progress| told(progress);
+    let options = Options { region: Some(region), stop: stop.clone(), on_tile: Some(&on_tile), ..Options::default() };
+    let frame = render(&snapshot, &options);
+    let picture = Mutex::new(frame.picture.clone());
+    let mut timed = Timed {
+        turns: u32::from(frame.is_complete()),
+        frame,
+        snapshot: snapshot.clone(),
+        error: FIRST,
+        better: None,
+        seconds: 0.0,
+        exhausted: false,
+    };
+    let mut longest = start.elapsed();
+    while timed.turns > 0 && !timed.exhausted && !stop.is_stopped() {
+        let left = end.saturating_duration_since(Instant::now());
+        if left.is_zero() {
+            break;
+        }
+        // While there is much time the error falls fast, so that little of it goes into turns that are not seen.
+        let error = (timed.error / if left > longest * 6 { 4.0 } else { 2.0 }).max(LEAST);
+        snapshot.settings.error = error;
+        let turn = Instant::now();
+        let turn_stop = Stop::new();
+        let improved = AtomicU64::new(0);
+        let on_tile = |tile: &Tile, progress: Progress| {
+            // A tile that was being drawn when the stop came may lack rows.
+            if !turn_stop.is_stopped() {
+                improved.fetch_add(tile.region.area() as u64, Ordering::Relaxed);
+                paste(&picture, tile, region);
+                told(progress);
+            }
+        };
+        let options =
+            Options { region: Some(region), stop: turn_stop.clone(), on_tile: Some(&on_tile), ..Options::default() };
+        let frame = until(end, stop, &turn_stop, || render(&snapshot, &options));
+        timed.frame.counts += frame.counts;
+        if turn_stop.is_stopped() {
+            let share = improved.into_inner() as f64 / region.area() as f64;
+            timed.better = (share > 0.0).then_some((error, share));
+            break;
+        }
+        (timed.turns, timed.error, timed.exhausted) = (timed.turns + 1, error, error <= LEAST);
+        longest = longest.max(turn.elapsed());
+    }
+    timed.frame.picture = picture.into_inner().unwrap_or_else(PoisonError::into_inner);
+    timed.snapshot.settings.error = timed.error;
+    timed.seconds = start.elapsed().as_secs_f64();
+    timed
+}
+
+fn paste(picture: &Mutex<Picture>, tile: &Tile, region: Region) {
+    let Region { x, y, width, height } = tile.region;
+    let part = Picture { width, height, pixels: tile.pixels.clone() };
+    picture.lock().unwrap_or_else(PoisonError::into_inner).paste(&part, x - region.x, y - region.y);
+}
+
+/// Does some work, and stops it at a time, or when the user wants it.
+fn until<R>(end: Instant, user: &Stop, stop: &Stop, work: impl FnOnce() -> R) -> R {
+    let (done, is_done) = mpsc::channel::<()>();
+    thread::scope(|scope| {
+        scope.spawn(move || {
+            while !user.is_stopped() && Instant::now() < end {
+                let left = end.saturating_duration_since(Instant::now());
+                if is_done.recv_timeout(left.min(TICK)) != Err(RecvTimeoutError::Timeout) {
+                    return;
+                }
+            }
+            stop.stop();
+        });
+        let result = work();
+        drop(done);
+        result
+    })
+}
