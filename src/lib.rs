@@ -49,6 +49,7 @@ pub mod prelude {
         choice,
         color::Rgb,
         describe::{Describe, Fault, FieldVisitor, Spec, Value},
+        figure::{Arrangement, Figure, HeightField, Lathe, SphereFlake, TriangleField},
         light::{AmbientLight, ConeLight, DirectionalLight, DiskLight, Emission, FallOff, Light, PointLight},
         material::{
             Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MadeOf, MaterialSlots, MediumRank,
@@ -57,7 +58,7 @@ pub mod prelude {
         name::Name,
         primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
         settings::{Antialias, Settings},
-        shape::{Cuboid, Mesh, Plane, Shading, Sphere, Triangle, TriangleMesh},
+        shape::{Cone, Cuboid, Cylinder, Mesh, MeshError, Plane, Shading, Sphere, Triangle, TriangleMesh},
         space::{Bounds, Ray},
         texture::{Checker, Filter, Image, ImageTexture, Texture, Wrap},
         transform::{Step, Transform},

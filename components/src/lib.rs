@@ -27,6 +27,7 @@
 //! | [`lanes`] | several numbers at once, at the level the machine has |
 //! | [`bvh`] | the bounding-volume tree, over bounds alone |
 //! | [`primitive`] | the contract every shape meets; [`shape`] holds the built-in ones |
+//! | [`figure`] | shapes made of many triangles or spheres by a rule; [`random`] their numbers |
 //! | [`material`], [`texture`], [`light`], [`camera`], [`settings`] | what the rays meet and how the picture is taken |
 
 pub mod math;
@@ -53,6 +54,10 @@ pub mod bvh;
 pub mod primitive;
 
 pub mod shape;
+
+pub mod random;
+
+pub mod figure;
 
 pub mod texture;
 

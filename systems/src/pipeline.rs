@@ -15,6 +15,7 @@ use bevy_ecs::{
 use snell_components::{
     camera::Camera,
     describe::Describe,
+    figure::{HeightField, Lathe, SphereFlake, TriangleField},
     light::{AmbientLight, ConeLight, DirectionalLight, DiskLight, Light, PointLight},
     material::{
         Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MediumRank, Mirror, Opacity,
@@ -22,7 +23,7 @@ use snell_components::{
     },
     primitive::Primitive,
     settings::Settings,
-    shape::{Cuboid, Mesh, Plane, Sphere, Triangle},
+    shape::{Cone, Cuboid, Cylinder, Mesh, Plane, Sphere, Triangle},
     texture::{Checker, ImageTexture, Texture},
     transform::{GlobalTransform, Transform},
 };
@@ -107,8 +108,14 @@ impl Renderer {
         this.with_primitive::<Sphere>()
             .with_primitive::<Plane>()
             .with_primitive::<Cuboid>()
+            .with_primitive::<Cone>()
+            .with_primitive::<Cylinder>()
             .with_primitive::<Triangle>()
             .with_primitive::<Mesh>()
+            .with_primitive::<Lathe>()
+            .with_primitive::<HeightField>()
+            .with_primitive::<TriangleField>()
+            .with_primitive::<SphereFlake>()
             .with_light::<PointLight>()
             .with_light::<DirectionalLight>()
             .with_light::<ConeLight>()

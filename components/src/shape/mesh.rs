@@ -52,6 +52,14 @@ pub struct TriangleMesh {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MeshError(String);
 
+impl MeshError {
+    /// An error with its reason.
+    #[must_use]
+    pub fn new(reason: impl Into<String>) -> Self {
+        Self(reason.into())
+    }
+}
+
 impl core::fmt::Display for MeshError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(&self.0)
@@ -279,11 +287,16 @@ struct Placed {
     error: f64,
 }
 
-impl Primitive for Mesh {
-    type Packed = PackedMesh;
-
-    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedMesh), Degenerate> {
-        let mesh = self.model.data.clone().ok_or_else(|| Degenerate("its model was not loaded".into()))?;
+impl PackedMesh {
+    /// A mesh placed by `world_from_object`.
+    ///
+    /// # Errors
+    /// The mesh has no triangle.
+    pub(crate) fn place(
+        mesh: Arc<TriangleMesh>,
+        shading: Shading,
+        world_from_object: &DAffine3,
+    ) -> Result<(Extent, Self), Degenerate> {
         if mesh.is_empty() {
             return Err(Degenerate("its model has no triangles with an area".into()));
         }
@@ -295,13 +308,22 @@ impl Primitive for Mesh {
         let placed = Placed {
             tree: tree.clone(),
             mesh: mesh.clone(),
-            shading: self.shading,
+            shading,
             object_from_world,
             world_from_object: *world_from_object,
             cotangent: object_from_world.matrix3.transpose(),
             error: Surface::rounding(reach),
         };
-        Ok((Extent::Bounded(bounds.unwrap_or(Bounds::EMPTY)), PackedMesh { placed: Arc::new(placed) }))
+        Ok((Extent::Bounded(bounds.unwrap_or(Bounds::EMPTY)), Self { placed: Arc::new(placed) }))
+    }
+}
+
+impl Primitive for Mesh {
+    type Packed = PackedMesh;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedMesh), Degenerate> {
+        let mesh = self.model.data.clone().ok_or_else(|| Degenerate("its model was not loaded".into()))?;
+        PackedMesh::place(mesh, self.shading, world_from_object)
     }
 
     #[inline]

@@ -66,7 +66,7 @@ impl PackedSphere {
 /// neither cancels however far or large the sphere (Haines, Günther, Akenine-Möller: Precision Improvements for
 /// Ray/Sphere Intersection, Ray Tracing Gems 7; `c` as a product after the same chapter's remark on huge spheres).
 #[inline]
-fn nearest_root(center: DVec3, radius: f64, ray: &Ray, t_max: f64) -> Option<f64> {
+pub(crate) fn nearest_root(center: DVec3, radius: f64, ray: &Ray, t_max: f64) -> Option<f64> {
     let f = ray.origin - center;
     let d = ray.direction;
     let a = d.dot(d);
@@ -142,15 +142,13 @@ impl Primitive for Sphere {
                 (maps.world_from_object.transform_point3(at), normal, local)
             }
         };
-        let u = 0.5 + math::atan2(-local.z, local.x) / (2.0 * PI);
-        let v = 1.0 - math::acos(local.y) / PI;
         let reach = packed.center.abs().max_element() + packed.radius;
         let reach = packed.ellipsoid.as_ref().map_or(reach, |maps| {
             let m = maps.world_from_object;
             m.translation.abs().max_element() + packed.radius * largest_axis(&m.matrix3)
         });
         let error = Surface::rounding(reach);
-        Surface { point, normal, shading_normal: normal, uv: DVec2::new(u, v), slot: 0, error }
+        Surface { point, normal, shading_normal: normal, uv: sphere_uv(local), slot: 0, error }
     }
 
     fn bounding_sphere(packed: &PackedSphere, bounds: &Bounds) -> BoundingSphere {
@@ -159,6 +157,12 @@ impl Primitive for Sphere {
             Some(_) => BoundingSphere::of_bounds(bounds),
         }
     }
+}
+
+/// Texture coordinates where a unit vector from the centre, object space, meets a sphere.
+pub(crate) fn sphere_uv(outward: DVec3) -> DVec2 {
+    let u = 0.5 + math::atan2(-outward.z, outward.x) / (2.0 * PI);
+    DVec2::new(u, 1.0 - math::acos(outward.y) / PI)
 }
 
 /// The one factor by which a matrix scales every direction, if there is one up to rounding.
