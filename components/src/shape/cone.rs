@@ -258,7 +258,7 @@ mod tests {
     /// Whether a point is inside by more than `margin`, outside by more than it, or neither.
     fn inside(cone: &Cone, p: DVec3, margin: f64) -> Option<bool> {
         let radius = cone.radius + (cone.top - cone.radius) * p.y / cone.height;
-        let gaps = [p.y, cone.height - p.y, radius - p.x.hypot(p.z)];
+        let gaps = [p.y, cone.height - p.y, radius - (p.x * p.x + p.z * p.z).sqrt()];
         let least = gaps.into_iter().fold(f64::INFINITY, f64::min);
         (least.abs() > margin).then_some(least > 0.0)
     }
