@@ -10,7 +10,7 @@ use smallvec::SmallVec;
 /// A component with named fields.
 ///
 /// `Default` gives the value of every field that a scene may leave out.
-pub trait Describe: Default {
+pub trait Describe: Default + Clone {
     /// The component's tag in a scene file, unique among registered components.
     const TAG: &'static str;
 

@@ -1,8 +1,8 @@
 //! What happens to a scene, in order.
 //!
 //! scene text → [`load`] → `World` → [`transform`] → [`accelerate`] → [`extract`] → [`snapshot::Snapshot`] → [`render`]
-//! → [`image`] → file. [`compare`] tells how far two pictures are apart; [`pipeline`] holds the order, [`registry`] the open
-//! set of components.
+//! → [`image`] → file. [`save`] is the way back from a `World` to scene text, by way of [`scene`]; [`compare`] tells how far
+//! two pictures are apart; [`pipeline`] holds the order, [`registry`] the open set of components.
 
 #![forbid(unsafe_code)]
 
@@ -11,6 +11,10 @@ pub mod pipeline;
 pub mod registry;
 
 pub mod load;
+
+pub mod scene;
+
+pub mod save;
 
 pub mod transform;
 

@@ -16,4 +16,5 @@ mod format;
 
 pub use fault::{Fault, Faults, Notice, Position, nearest};
 pub use format::format_scene;
+pub(crate) use scene::{LARGEST, MODEL_MARK};
 pub use scene::{read_scene, read_scene_text};

@@ -9,8 +9,8 @@ use super::{
 /// The version of the format that is read.
 const VERSION: u32 = 1;
 
-/// A mark in names that only the loader sets.
-pub(super) const RESERVED: char = '#';
+/// A mark in names that only the loader sets, for the materials of models.
+pub(crate) const RESERVED: char = '#';
 
 /// A scene file, part by part.
 #[derive(Debug, Default)]

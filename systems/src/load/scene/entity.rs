@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     load::assets::Assets,
-    registry::{Entry, Insert, Kind, Registry},
+    registry::{self, AnyComponent, Entry, Kind, Registry},
 };
 use glam::DAffine3;
 use snell_components::{describe::Describe, transform::Transform};
@@ -47,16 +47,10 @@ pub(super) enum Role<'t> {
 impl Role<'_> {
     /// Why two cannot stand on one entity; nothing if they can.
     fn conflict(self, other: Self) -> Option<&'static str> {
-        use Kind::{Effect, Filling, Shape, Texture};
-        const REPLACED: [&str; 3] = ["Mirror", "Transmission", "Refraction"];
+        use Kind::{Effect, Filling, Texture};
         match (self, other) {
-            (Self::Component(Shape, _), Self::Component(Shape, _)) => Some("an entity has one shape at most"),
-            (Self::Component(Texture, _), Self::Component(Texture, _)) => Some("an entity has one texture at most"),
-            (Self::Component(_, "Dielectric"), Self::Component(_, tag))
-            | (Self::Component(_, tag), Self::Component(_, "Dielectric"))
-                if REPLACED.contains(&tag) =>
-            {
-                Some("`Dielectric` takes the place of `Mirror`, `Transmission` and `Refraction`")
+            (Self::Component(kind, tag), Self::Component(other_kind, other)) => {
+                registry::conflict((kind, tag), (other_kind, other))
             }
             (Self::Component(Effect | Filling | Texture, _), Self::Relation(Relation::MadeOf))
             | (Self::Relation(Relation::MadeOf), Self::Component(Effect | Filling | Texture, _)) => {
@@ -84,8 +78,8 @@ pub(super) struct Part<'s> {
     pub(super) tag: &'s str,
     pub(super) entry: Entry,
     pub(super) written: Written<'s>,
-    /// Puts it on the entity that states it.
-    pub(super) insert: Option<Insert>,
+    /// What was read; nothing if something is wrong with it.
+    pub(super) component: Option<Box<dyn AnyComponent>>,
     pub(super) placement: Option<DAffine3>,
     pub(super) model: Option<usize>,
 }
@@ -217,13 +211,13 @@ impl<'s> Reader<'_, 's> {
     /// Reads a registered component.
     fn part(&mut self, stated: &mut Stated<'s>, tag: &'s str, written: Written<'s>, subject: &str) {
         let Some(entry) = self.registry.get(tag).copied() else { return };
-        let filled = component::fill(written, subject, self.assets, self.report, entry.read);
+        let filled = component::fill(written, subject, self.assets, self.report, |fields| entry.read(fields));
         stated.broken |= filled.is_none();
-        let (insert, placement, model) = match filled {
+        let (component, placement, model) = match filled {
             Some(filled) => (Some(filled.value), filled.placement, filled.model),
             None => (None, None, None),
         };
-        stated.parts.push(Part { tag, entry, written, insert, placement, model });
+        stated.parts.push(Part { tag, entry, written, component, placement, model });
     }
 
     /// Reads a reference.

@@ -28,6 +28,9 @@ use super::{
 };
 use crate::registry::Registry;
 use bevy_ecs::prelude::*;
+pub(crate) use document::RESERVED as MODEL_MARK;
+pub(crate) use values::LARGEST;
+
 use component::{Given, Written};
 use include::Layout;
 use node::Form;
@@ -89,7 +92,7 @@ fn read(world: &mut World, sources: &[Source], mut report: Report) -> Result<Vec
         faults.0.append(&mut assets.faults);
         return Err(faults);
     }
-    let ready = spawn::prepare(sources, layout, stated, wholes, &mut assets);
+    let ready = spawn::prepare(sources, layout, &stated, wholes);
     spawn::spawn(world, ready, &assets);
     world.insert_resource(settings);
     Ok(assets.notices)

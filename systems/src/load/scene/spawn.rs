@@ -1,15 +1,14 @@
 //! Entities of the world from entities of the scene, once all are known to be sound.
 
 use super::{
-    component,
     entity::{Relation, Stated},
     include::Layout,
     links::{Whole, part},
-    source::{Place, Report, Source},
+    source::{Place, Source},
 };
 use crate::{
     load::{assets::Assets, obj::ModelMaterial},
-    registry::{Insert, Kind},
+    registry::{AnyComponent, Kind},
 };
 use bevy_ecs::prelude::*;
 use snell_components::{
@@ -30,7 +29,7 @@ use std::{
 pub(super) struct Ready {
     name: String,
     written: WrittenAt,
-    components: Vec<Insert>,
+    components: Vec<Box<dyn AnyComponent>>,
     made_of: Option<usize>,
     parent: Option<usize>,
     /// The model whose materials it shows.
@@ -38,13 +37,7 @@ pub(super) struct Ready {
 }
 
 /// Makes the components of all entities.
-pub(super) fn prepare(
-    sources: &[Source],
-    layout: Layout<'_>,
-    mut stated: Vec<Stated<'_>>,
-    wholes: Vec<Whole>,
-    assets: &mut Assets,
-) -> Vec<Ready> {
+pub(super) fn prepare(sources: &[Source], layout: Layout<'_>, stated: &[Stated<'_>], wholes: Vec<Whole>) -> Vec<Ready> {
     let files: Vec<Arc<Path>> = sources.iter().map(|source| source.path.as_path().into()).collect();
     let line = |place: Place| Line {
         file: files.get(place.file).cloned().unwrap_or_else(|| Path::new("").into()),
@@ -55,19 +48,11 @@ pub(super) fn prepare(
         let (mut components, mut model, mut has_surface) = (vec![], None, whole.made_of.is_some());
         let own = |relation: Relation| Some((relation.tag(), line(stated.get(number)?.link(relation)?.place)));
         let mut lines: Vec<_> = Relation::ALL.into_iter().filter_map(own).collect();
-        for at in whole.parts {
-            let Some(part) = part(&stated, at) else { continue };
+        for part in whole.parts.iter().filter_map(|at| part(stated, *at)) {
             lines.push((part.entry.tag, line(part.written.place)));
             model = model.or(part.model);
             has_surface |= matches!(part.entry.kind, Kind::Effect | Kind::Texture);
-            let own = at.0 == number;
-            if own {
-                components.extend(stated.get_mut(at.0).and_then(|stated| stated.parts.get_mut(at.1)?.insert.take()));
-            } else {
-                // A component that was read goes to one entity; for another it is read again.
-                let filled = component::fill(part.written, part.tag, assets, &mut Report::default(), part.entry.read);
-                components.extend(filled.map(|filled| filled.value));
-            }
+            components.extend(part.component.clone());
         }
         ready.push(Ready {
             name: entity.name,
@@ -91,8 +76,8 @@ pub(super) fn spawn(world: &mut World, ready: Vec<Ready>, assets: &Assets) {
             .model
             .map(|model| materials.entry(model).or_insert_with(|| spawn_materials(world, model, assets)).clone());
         let mut entity = world.entity_mut(*id);
-        for insert in ready.components {
-            insert(&mut entity);
+        for component in ready.components {
+            component.insert(&mut entity);
         }
         if let Some(slots) = slots.filter(|slots| !slots.is_empty()) {
             entity.insert(MaterialSlots(slots));

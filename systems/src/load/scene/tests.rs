@@ -915,7 +915,7 @@ fn the_reference_names_every_component_and_field() {
     for tag in registry.tags() {
         assert!(reference.contains(&format!("`{tag}`")), "scenes/README.md does not name {tag}");
         let entry = registry.get(tag).expect("an entry");
-        drop((entry.read)(&mut Names(reference, tag)));
+        drop(entry.read(&mut Names(reference, tag)));
     }
     Settings::default().describe(&mut Names(reference, "settings"));
 }

@@ -13,7 +13,7 @@ use snell_components::{
 };
 
 /// The largest size of a number: bounds of shapes are kept in single precision.
-const LARGEST: f64 = f32::MAX as f64;
+pub(crate) const LARGEST: f64 = f32::MAX as f64;
 
 /// The names of the steps of a placement.
 const STEPS: [&str; 6] = ["Translate", "Scale", "RotateX", "RotateY", "RotateZ", "Rotate"];
