@@ -28,6 +28,7 @@ pub mod cli;
 
 pub use snell_components as components;
 pub use snell_systems as systems;
+pub use snell_systems::conformance;
 
 pub use snell_systems::{
     accelerate::Accelerator,

@@ -31,3 +31,5 @@ pub mod why;
 pub mod image;
 
 pub mod compare;
+
+pub mod conformance;

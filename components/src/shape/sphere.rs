@@ -94,6 +94,9 @@ impl Primitive for Sphere {
         if !(self.radius > 0.0 && self.radius.is_finite()) {
             return Err(Degenerate(format!("its radius is not a number above zero: {}", self.radius)));
         }
+        if !(self.radius * self.radius).is_finite() {
+            return Err(Degenerate(format!("its radius is too large, the square is not finite: {}", self.radius)));
+        }
         let object_from_world = world_from_object.inverse();
         if let Some(scale) = uniform_scale(&world_from_object.matrix3) {
             let (center, radius) = (world_from_object.translation, self.radius * scale);

@@ -1,0 +1,190 @@
+//! Hits, surfaces and normals.
+
+use super::{Report, case::Case};
+use crate::render::Key;
+use glam::DVec3;
+use snell_components::{
+    primitive::{Cost, Hit, Primitive, Surface},
+    space::Ray,
+};
+
+/// Rays that a shape is tried with in every placement.
+const RAYS: u32 = 1200;
+
+/// Largest sine of the angle between a normal and what finite differences say.
+const NORMAL_TOLERANCE: f64 = 1e-3;
+
+pub(super) fn check<P: Primitive>(case: &Case<P>, report: &mut Report) {
+    let mut hits = 0;
+    for (n, ray) in (0..).zip(case.rays(RAYS, 1)) {
+        let hit = check_nearest(case, &ray, Key::of_pixel(n, 2, 7), report);
+        if let Some(hit) = hit {
+            hits += 1;
+            check_hit(case, &ray, hit, report);
+        }
+    }
+    if hits == 0 {
+        report.add("bounds", &case.name, format!("none of {RAYS} rays into the bounds hits anything"));
+    }
+}
+
+/// The nearest hit, if it is told alike in all ways.
+fn check_nearest<P: Primitive>(case: &Case<P>, ray: &Ray, key: Key, report: &mut Report) -> Option<Hit> {
+    let hit = case.hit(ray, f64::INFINITY);
+    let exhaustive = P::hit_exhaustive(&case.packed, ray, f64::INFINITY, &mut Cost::default());
+    let bits = |hit: Option<Hit>| hit.map(|hit| (hit.t.to_bits(), hit.part));
+    if bits(hit) != bits(exhaustive) {
+        report.add("nearest", &case.name, format!("{ray:?}: `hit` gives {hit:?}, `hit_exhaustive` {exhaustive:?}"));
+    }
+    let blocks = |t_max| P::blocks(&case.packed, ray, t_max, &mut Cost::default());
+    if blocks(f64::INFINITY) != hit.is_some() {
+        report.add("blocks", &case.name, format!("{ray:?}: `blocks` differs from `hit`, {hit:?}"));
+    }
+    let hit = hit?;
+    if !(hit.t.is_finite() && hit.t > 0.0) {
+        report.add("nearest", &case.name, format!("{ray:?}: the distance {} is not positive and finite", hit.t));
+        return None;
+    }
+    if bits(case.hit(ray, hit.t)) != bits(Some(hit)) {
+        report.add("nearest", &case.name, format!("{ray:?}: the hit {hit:?} is lost if `t_max` is its own distance"));
+    }
+    if blocks(hit.t) || !blocks(hit.t.next_up()) {
+        report.add("blocks", &case.name, format!("{ray:?}: blocked exactly where it is hit, {hit:?}, must be not"));
+    }
+    for n in 0..3 {
+        let limit = if n == 0 { hit.t.next_down() } else { hit.t * key.sample(n).x };
+        if let Some(nearer) = case.hit(ray, limit) {
+            let what = format!("{ray:?}: with `t_max` {limit:?} it hits {nearer:?}, without limit {hit:?}");
+            report.add("nearest", &case.name, what);
+        }
+    }
+    Some(hit)
+}
+
+fn check_hit<P: Primitive>(case: &Case<P>, ray: &Ray, hit: Hit, report: &mut Report) {
+    let rounding = case.rounding(ray, hit.t);
+    let at = ray.at(hit.t);
+    if let Some(bounds) = case.bounds {
+        let outside = (bounds.min - at).max(at - bounds.max).max_element();
+        if outside > rounding {
+            report.add("bounds", &case.name, format!("{ray:?}: the hit {at} lies {outside:e} outside of {bounds:?}"));
+        }
+    }
+    let surface = case.surface(ray, hit);
+    let Surface { point, normal, shading_normal, uv, error, .. } = surface;
+    let off = point.distance(at);
+    // Along a grazing ray the point and the surface may be far apart.
+    let slope = (normal.dot(ray.direction).abs() / ray.direction.length()).max(1e-6);
+    let unit = |v: DVec3| (v.length() - 1.0).abs() < 1e-9;
+    let fault = if !(unit(normal) && unit(shading_normal)) {
+        Some(format!("normals are not of length 1: {normal}, {shading_normal}"))
+    } else if !(uv.is_finite() && error.is_finite() && error >= 0.0) {
+        Some(format!("uv {uv} or error {error} is not a finite number"))
+    } else if off.is_nan() || off * slope > error + rounding {
+        Some(format!("the point {point} lies {off:e} from the hit, more than its error {error:e}"))
+    } else {
+        None
+    };
+    if let Some(fault) = fault {
+        report.add("surface", &case.name, format!("{ray:?}: {fault}"));
+        return;
+    }
+    check_normal(case, ray, &surface, report);
+    check_departure(case, ray, hit, &surface, report);
+}
+
+/// Compares the normal with the plane through the hits of neighbouring rays.
+fn check_normal<P: Primitive>(case: &Case<P>, ray: &Ray, surface: &Surface, report: &mut Report) {
+    let direction = ray.direction.normalize();
+    // Hits of grazing rays are far apart.
+    if surface.normal.dot(direction).abs() < 0.2 {
+        return;
+    }
+    let u = direction.any_orthonormal_vector();
+    let v = direction.cross(u);
+    // Steps are as small as rounding allows: the smaller, the less is in reach beside the surface at hand.
+    let least = 64.0 * f64::EPSILON * (ray.origin.abs().max_element() + case.center.abs().max_element() + case.size);
+    let mut best: Option<(f64, DVec3)> = None;
+    for share in [1e-3, 1e-4, 1e-5] {
+        let step = (share * case.size).max(least / NORMAL_TOLERANCE);
+        let neighbour = |offset: DVec3| {
+            let ray = Ray { origin: ray.origin + offset, direction: ray.direction };
+            let point = case.surface(&ray, case.hit(&ray, f64::INFINITY)?).point;
+            // Those on another part of the surface tell nothing.
+            (point.distance(surface.point) < 10.0 * step).then_some(point)
+        };
+        let [right, left] = [u * step, -u * step].map(neighbour);
+        let [above, below] = [v * step, -v * step].map(neighbour);
+        // Beside an edge, one corner at least has its three points on one side of it.
+        let corners = [(right, above), (right, below), (left, above), (left, below)];
+        for (a, b) in corners.into_iter().filter_map(|(a, b)| a.zip(b)) {
+            let Some(found) = (a - surface.point).cross(b - surface.point).try_normalize() else { continue };
+            let sine = found.cross(surface.normal).length();
+            if sine < NORMAL_TOLERANCE {
+                return;
+            }
+            if best.is_none_or(|(least, _)| sine < least) {
+                best = Some((sine, found));
+            }
+        }
+    }
+    if let Some((sine, found)) = best {
+        let what =
+            format!("{ray:?}: the normal {} is off by a sine of {sine:.2e}: hits nearby say ±{found}", surface.normal);
+        report.add("normal", &case.name, what);
+    }
+}
+
+/// Follows a ray away from the surface, on the side that it came from.
+fn check_departure<P: Primitive>(case: &Case<P>, ray: &Ray, hit: Hit, surface: &Surface, report: &mut Report) {
+    let side = if surface.normal.dot(ray.direction) < 0.0 { surface.normal } else { -surface.normal };
+    let origin = surface.departure(side, hit.t * ray.direction.length());
+    let away = Ray { origin, direction: side };
+    let step = origin.distance(surface.point);
+    // What is met within a few steps is the surface that was left.
+    if let Some(again) = case.hit(&away, 4.0 * step) {
+        let what =
+            format!("{ray:?}: a ray that leaves the hit along its normal meets the shape again at {:e}", again.t);
+        report.add("departure", &case.name, what);
+    }
+}
+
+/// Compares hits of the shape as it is with those in other placements.
+pub(super) fn check_placements<P: Primitive>(cases: &[Case<P>], report: &mut Report) {
+    let Some((first, others)) = cases.split_first() else { return };
+    for case in others {
+        let map = case.placed * first.placed.inverse();
+        // A few rays graze the surface and may or may not hit it.
+        let (mut rays, mut lost) = (0, 0);
+        for ray in first.rays(300, 3) {
+            let moved =
+                Ray { origin: map.transform_point3(ray.origin), direction: map.transform_vector3(ray.direction) };
+            // Rays along a plane meet it at the end of the world, if at all.
+            let near = 1e6 * first.size / ray.direction.length();
+            let [a, b] = [first.hit(&ray, near), case.hit(&moved, near)];
+            rays += 1;
+            let (Some(a), Some(b)) = (a, b) else {
+                lost += u32::from(a.is_some() != b.is_some());
+                continue;
+            };
+            let normal = first.surface(&ray, a).normal;
+            let slope = (normal.dot(ray.direction).abs() / ray.direction.length()).max(1e-6);
+            let expected = map.transform_point3(ray.at(a.t));
+            let off = case.surface(&moved, b).point.distance(expected);
+            let scale = case.size / first.size;
+            let allowed =
+                16.0 * (case.rounding(&moved, b.t) + scale * first.rounding(&ray, a.t)) / slope + 1e-9 * case.size;
+            if (off.is_nan() || off > allowed) && slope > 1e-3 {
+                let what = format!("{ray:?} hits at {}; placed, the hit is {off:e} from where it should be", a.t);
+                report.add("placement", &case.name, what);
+            }
+        }
+        if lost * 50 > rays {
+            report.add(
+                "placement",
+                &case.name,
+                format!("{lost} of {rays} rays hit in one placement and not in another"),
+            );
+        }
+    }
+}

@@ -1,0 +1,146 @@
+//! The suite for shapes catches faults: each of these is a ball with one of them.
+
+use snell::{
+    conformance::{Form, check},
+    prelude::*,
+};
+
+macro_rules! faults {
+    ($($fault:ident = $number:literal, $test:ident: $check:literal;)*) => {$(
+        const $fault: u8 = $number;
+
+        #[test]
+        fn $test() {
+            let report = check(&[Broken::<$fault> { radius: 1.0 }], Form::Closed);
+            assert!(report.has($check), "{report}");
+        }
+    )*};
+}
+
+const SOUND: u8 = 0;
+
+#[test]
+fn without_a_fault_all_is_well() {
+    check(&[Broken::<SOUND> { radius: 1.0 }], Form::Closed).assert();
+}
+
+faults! {
+    BOUNDS_TOO_SMALL = 1, bounds_that_are_too_small: "bounds";
+    BOUNDS_NOT_FINITE = 2, bounds_that_are_not_finite: "pack";
+    FAR_HIT = 3, the_farther_hit: "nearest";
+    LIMIT_IGNORED = 4, a_limit_that_is_ignored: "nearest";
+    LIMIT_EXCLUDED = 5, a_limit_that_is_left_out: "nearest";
+    BEHIND = 6, a_distance_behind_the_origin: "nearest";
+    EXHAUSTIVE_BY_ONE_BIT = 7, one_bit_between_the_hits: "nearest";
+    BLOCKS_TOO_LATE = 8, shadows_that_come_late: "blocks";
+    NORMAL_BENT = 9, a_bent_normal: "normal";
+    NORMAL_OF_ONE_PATCH = 10, a_bent_normal_in_one_place: "normal";
+    NORMAL_INWARD = 11, an_inward_normal: "parity";
+    NORMAL_LONG = 12, a_long_normal: "surface";
+    POINT_OFF = 13, a_point_beside_the_surface: "surface";
+    ERROR_NOT_TOLD = 14, an_error_that_is_not_told: "surface";
+    HOLE = 15, a_hole: "parity";
+    INSIDE_OPEN = 16, a_surface_that_inside_does_not_see: "leak";
+    CRACK = 17, a_crack: "leak";
+    SCALE_IGNORED = 18, a_scale_that_is_ignored: "placement";
+    PANICS_WHEN_LARGE = 19, a_panic_at_extreme_values: "extremes";
+    FIELD_FORGOTTEN = 20, a_field_that_is_not_read: "text";
+}
+
+/// A ball about the origin with a fault.
+#[derive(Component, Clone, Default)]
+struct Broken<const FAULT: u8> {
+    radius: f64,
+}
+
+impl<const FAULT: u8> Describe for Broken<FAULT> {
+    const TAG: &'static str = "Broken";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        let mut forgotten = 1.0;
+        let place = if FAULT == FIELD_FORGOTTEN { &mut forgotten } else { &mut self.radius };
+        fields.field("radius", Value::Number(place), Spec::positive("object units").required());
+    }
+}
+
+#[derive(Clone)]
+struct Packed {
+    sphere: <Sphere as Primitive>::Packed,
+    center: DVec3,
+    radius: f64,
+}
+
+impl<const FAULT: u8> Primitive for Broken<FAULT> {
+    type Packed = Packed;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, Packed), Degenerate> {
+        assert!(FAULT != PANICS_WHEN_LARGE || self.radius < 1e100, "too large");
+        let placed = match FAULT {
+            SCALE_IGNORED => DAffine3::from_translation(world_from_object.translation),
+            _ => *world_from_object,
+        };
+        let (extent, sphere) = Sphere { radius: self.radius.abs() }.pack(&placed)?;
+        let Extent::Bounded(mut bounds) = extent else { return Err(Degenerate("spheres are bounded".into())) };
+        let (center, half) = (0.5 * (bounds.min + bounds.max), 0.5 * (bounds.max - bounds.min));
+        match FAULT {
+            BOUNDS_TOO_SMALL => bounds.max.y -= 0.05 * half.y,
+            BOUNDS_NOT_FINITE => bounds.max.y = f64::INFINITY,
+            _ => {}
+        }
+        Ok((Extent::Bounded(bounds), Packed { sphere, center, radius: half.max_element() }))
+    }
+
+    fn hit(packed: &Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        let limit = if FAULT == LIMIT_IGNORED { f64::INFINITY } else { t_max };
+        let hit = Sphere::hit(&packed.sphere, ray, limit, cost);
+        let place = |hit: Hit| (ray.at(hit.t) - packed.center) / packed.radius;
+        let inside = || (ray.origin - packed.center).length() < 0.4 * packed.radius;
+        match FAULT {
+            // The farther of two.
+            FAR_HIT => {
+                let first = hit?;
+                let rest = Ray { origin: ray.at(first.t * (1.0 + 1e-9)), direction: ray.direction };
+                let second = Sphere::hit(&packed.sphere, &rest, t_max, cost);
+                second.map(|hit| Hit { t: hit.t + first.t, ..hit }).filter(|hit| hit.t <= t_max).or(Some(first))
+            }
+            LIMIT_EXCLUDED => hit.filter(|hit| hit.t < t_max),
+            BEHIND => hit.map(|hit| Hit { t: -hit.t, ..hit }),
+            HOLE => hit.filter(|hit| place(*hit).y < 0.97),
+            INSIDE_OPEN => hit.filter(|_| !inside()),
+            CRACK => hit.filter(|hit| !(place(*hit).x.abs() < 2e-3 && place(*hit).z > 0.0)),
+            _ => hit,
+        }
+    }
+
+    fn hit_exhaustive(packed: &Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        let hit = Self::hit(packed, ray, t_max, cost);
+        let next = |hit: Hit| Hit { t: hit.t.next_up(), ..hit };
+        if FAULT == EXHAUSTIVE_BY_ONE_BIT { hit.map(next) } else { hit }
+    }
+
+    fn blocks(packed: &Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
+        let limit = |t: f64| if FAULT == BLOCKS_TOO_LATE { t * 0.999 } else { t };
+        Self::hit(packed, ray, limit(t_max), cost).is_some_and(|hit| hit.t < limit(t_max))
+    }
+
+    fn surface(packed: &Packed, ray: &Ray, hit: Hit) -> Surface {
+        let mut surface = Sphere::surface(&packed.sphere, ray, hit);
+        let place = (surface.point - packed.center) / packed.radius;
+        let bent = (surface.normal + DVec3::new(0.0, 0.01, 0.0)).normalize();
+        match FAULT {
+            NORMAL_BENT => surface.normal = bent,
+            // About one hit of a hundred.
+            NORMAL_OF_ONE_PATCH if place.x > 0.97 => surface.normal = bent,
+            NORMAL_INWARD => surface.normal = -surface.normal,
+            NORMAL_LONG => surface.shading_normal *= 1.01,
+            POINT_OFF => surface.point += surface.normal * 1e-6 * packed.radius,
+            ERROR_NOT_TOLD => {
+                // A point below the surface by more than is told.
+                surface.point -= surface.normal * 1e-12 * packed.radius;
+                surface.error = 0.0;
+            }
+            _ => {}
+        }
+        surface
+    }
+}
