@@ -26,6 +26,8 @@
 
 pub mod cli;
 
+pub mod golden;
+
 pub use snell_components as components;
 pub use snell_systems as systems;
 pub use snell_systems::conformance;
@@ -51,7 +53,10 @@ pub mod prelude {
         color::Rgb,
         describe::{Describe, Fault, FieldVisitor, Spec, Value},
         figure::{Arrangement, Figure, HeightField, Lathe, SphereFlake, TriangleField},
-        light::{AmbientLight, ConeLight, DirectionalLight, DiskLight, Emission, FallOff, Light, PointLight},
+        light::{
+            AmbientLight, ConeLight, DirectionalLight, DiskLight, Emission, FallOff, Illumination, Lamp, Light,
+            PointLight,
+        },
         material::{
             Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MadeOf, MaterialSlots, MediumRank,
             Mirror, Opacity, Refraction, Transmission,
@@ -61,7 +66,7 @@ pub mod prelude {
         settings::{Antialias, Settings},
         shape::{Cone, Cuboid, Cylinder, Mesh, MeshError, Plane, Shading, Sphere, Triangle, TriangleMesh},
         space::{Bounds, Ray},
-        texture::{Checker, Filter, Image, ImageTexture, Texture, Wrap},
+        texture::{Checker, Filter, Image, ImageTexture, Pattern, Texture, TexturePoint, Wrap},
         transform::{Step, Transform},
     };
 }

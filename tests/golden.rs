@@ -4,12 +4,20 @@
 //! `SNELL_BLESS=1 cargo test --test golden` replaces the pictures that fail, `SNELL_BLESS=all` all of them, and any
 //! other value those whose name contains it or, with a `*` in it, matches it. Look at them before they are committed.
 
-#[path = "support/golden.rs"]
-mod golden;
+#[path = "support/cases.rs"]
+#[expect(dead_code, reason = "golden pictures read themselves")]
+mod cases;
+#[path = "support/dead.rs"]
+mod dead;
 
-use golden::{Bless, Golden, dead};
+use cases::Case;
+use dead::dead;
+
 use libtest_mimic::{Arguments, Failed, Trial};
-use snell::{Options, Renderer, render};
+use snell::{
+    Renderer,
+    golden::{Bless, Golden},
+};
 use std::{env, path::Path, process::ExitCode};
 
 fn main() -> ExitCode {
@@ -27,15 +35,15 @@ fn trials() -> Result<Vec<Trial>, String> {
     let bless = Bless::from_env(env::var("SNELL_BLESS").ok().as_deref(), env::var_os("CI").is_some())?;
     let root = Path::new("tests/golden");
     let reports = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("golden");
-    let goldens = Golden::all(root, &reports).map_err(|why| format!("{}: {why}", root.display()))?;
-    if goldens.is_empty() {
+    let cases = Case::all(root).map_err(|why| format!("{}: {why}", root.display()))?;
+    if cases.is_empty() {
         return Err(format!("there are no scenes below {}", root.display()));
     }
-    let trial = |golden: Golden| {
-        let bless = bless.clone();
-        Trial::test(golden.case.name.clone(), move || run(&golden, &bless).map_err(Failed::from))
+    let trial = |case: Case| {
+        let (bless, reports) = (bless.clone(), reports.clone());
+        Trial::test(case.name.clone(), move || run(&case, &reports, &bless).map_err(Failed::from))
     };
-    let mut trials: Vec<_> = goldens.into_iter().map(trial).collect();
+    let mut trials: Vec<_> = cases.into_iter().map(trial).collect();
     trials.push(Trial::test("every picture has its scene", move || {
         let dead = dead(root)?;
         if dead.is_empty() { Ok(()) } else { Err(format!("pictures without a scene: {dead:?}").into()) }
@@ -43,9 +51,9 @@ fn trials() -> Result<Vec<Trial>, String> {
     Ok(trials)
 }
 
-fn run(golden: &Golden, bless: &Bless) -> Result<(), String> {
+fn run(case: &Case, reports: &Path, bless: &Bless) -> Result<(), String> {
     let mut renderer = Renderer::new();
-    renderer.load(&golden.case.scene).map_err(|faults| faults.to_string())?;
-    let snapshot = renderer.snapshot().map_err(|why| why.to_string())?;
-    golden.check(&render(&snapshot, &Options::default()).picture, bless)
+    renderer.load(&case.scene).map_err(|faults| faults.to_string())?;
+    let golden = Golden::at(&case.name, &case.expected, reports).scene(&case.scene);
+    golden.command("cargo test --test golden").check(&mut renderer, bless)
 }
