@@ -32,8 +32,8 @@ pub use snell_components as components;
 pub use snell_systems as systems;
 pub use snell_systems::conformance;
 
+pub use snell_components::method::{Accelerator, Methods, Precision, SphereTest, TriangleTest};
 pub use snell_systems::{
-    accelerate::Accelerator,
     extract::SceneError,
     load::{Fault, Faults, Notice},
     pipeline::Renderer,
@@ -44,7 +44,9 @@ pub use snell_systems::{
 
 /// What a program that builds and renders scenes needs.
 pub mod prelude {
-    pub use crate::{Accelerator, Frame, Options, Picture, Region, Renderer, SceneError, Snapshot, Stop, render};
+    pub use crate::{
+        Accelerator, Frame, Methods, Options, Picture, Region, Renderer, SceneError, Snapshot, Stop, render,
+    };
     pub use bevy_ecs::prelude::*;
     pub use glam::{DAffine3, DVec2, DVec3};
     pub use snell_components::{

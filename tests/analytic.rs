@@ -40,7 +40,7 @@ fn put(bundle: impl Bundle) -> impl FnOnce(&mut World) {
 /// The light that comes to a point from a direction.
 fn seen(snapshot: &Snapshot, eye: DVec3, toward: DVec3) -> Rgb {
     let view = View { eye, right: DVec3::ZERO, up: DVec3::ZERO, forward: toward };
-    pixel(&Snapshot { view, ..snapshot.clone() }, 0, 0, Accelerator::Tree, &mut snell::Counts::default())
+    pixel(&Snapshot { view, ..snapshot.clone() }, 0, 0, &Methods::default(), &mut snell::Counts::default())
 }
 
 #[track_caller]
@@ -684,7 +684,7 @@ fn four_rays_a_pixel_are_the_mean_of_a_picture_of_twice_the_size() {
         };
         let (four, fine) = (shot(Antialias::Four, 1), shot(Antialias::Off, 2));
         for (x, y) in (0..height).step_by(3).flat_map(|y| (0..width).step_by(3).map(move |x| (x, y))) {
-            let one = |snapshot, x, y| pixel(snapshot, x, y, Accelerator::Tree, &mut snell::Counts::default());
+            let one = |snapshot, x, y| pixel(snapshot, x, y, &Methods::default(), &mut snell::Counts::default());
             let quarter = |dx, dy| one(&fine, 2 * x + dx, 2 * y + dy);
             let mean = (quarter(0, 0) + quarter(0, 1) + quarter(1, 0) + quarter(1, 1)) / 4.0;
             assert_eq!(one(&four, x, y), mean, "{}: {x}, {y}", scene.name);

@@ -89,7 +89,7 @@ fn a_pixel_that_is_halved_is_a_function_of_its_place() {
         let part = render(&snapshot, &Options { region: Some(region), ..Options::default() }).picture;
         assert!(Some(part) == whole.picture.crop(region), "{name}");
         for (x, y) in [(0, 0), (30, 20), (31, 20), (30, 21), (59, 39)] {
-            let alone = pixel(&snapshot, x, y, Accelerator::Tree, &mut Counts::default()).as_vec3().to_array();
+            let alone = pixel(&snapshot, x, y, &Methods::default(), &mut Counts::default()).as_vec3().to_array();
             assert_eq!(whole.picture.pixel(x, y), Some(alone), "{name}: {x}, {y}");
         }
     }
@@ -158,7 +158,7 @@ fn thin_lines_are_missed_as_often_as_geometry_says() {
             snapshot.view.eye = DVec3::new(offset, 0.0, 1e6);
             (snapshot.view.right, snapshot.view.up) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
             let mut counts = Counts::default();
-            let light = pixel(&snapshot, 0, 0, Accelerator::Tree, &mut counts);
+            let light = pixel(&snapshot, 0, 0, &Methods::default(), &mut counts);
             missed +=
                 u32::from(if antialias == Antialias::Adaptive { counts.refined == 0 } else { light == Rgb::ZERO });
         }

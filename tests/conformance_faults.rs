@@ -112,7 +112,7 @@ impl<const FAULT: u8> Primitive for Broken<FAULT> {
         }
     }
 
-    fn hit_exhaustive(packed: &Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+    fn hit_with(packed: &Packed, ray: &Ray, t_max: f64, _: &Methods, cost: &mut Cost) -> Option<Hit> {
         let hit = Self::hit(packed, ray, t_max, cost);
         let next = |hit: Hit| Hit { t: hit.t.next_up(), ..hit };
         if FAULT == EXHAUSTIVE_BY_ONE_BIT { hit.map(next) } else { hit }

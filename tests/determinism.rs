@@ -71,7 +71,7 @@ fn sums_over_lights_follow_their_names_to_the_last_bit() {
             scene.put(format!("sky {name}"), AmbientLight { intensity });
         }
         let snapshot = snapshot(&scene, order);
-        let light = pixel(&snapshot, 0, 0, Accelerator::Tree, &mut snell::Counts::default());
+        let light = pixel(&snapshot, 0, 0, &Methods::default(), &mut snell::Counts::default());
         (light, snapshot.lights.ambient)
     };
     for order in 1..20 {
@@ -109,8 +109,11 @@ fn a_region_is_the_part_of_the_whole() {
 #[test]
 fn the_trees_change_nothing() {
     for scene in gallery() {
-        let options = Options { accelerator: Accelerator::BruteForce, ..Options::default() };
-        assert_eq!(render(&snapshot(&scene, 0), &options).picture.hash(), picture(&scene).hash(), "{}", scene.name);
+        for accelerator in [Accelerator::SphereTree, Accelerator::BruteForce] {
+            let options = Options { methods: Methods { accelerator, ..Methods::default() }, ..Options::default() };
+            let found = render(&snapshot(&scene, 0), &options).picture.hash();
+            assert_eq!(found, picture(&scene).hash(), "{}: {accelerator:?}", scene.name);
+        }
     }
 }
 

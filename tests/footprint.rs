@@ -62,7 +62,7 @@ fn scene(camera: &Camera, show: Show, build: impl Fn(&mut World, (Probe, Ambient
 }
 
 fn shown(snapshot: &Snapshot, x: u32, y: u32) -> DVec3 {
-    pixel(snapshot, x, y, Accelerator::Tree, &mut snell::Counts::default())
+    pixel(snapshot, x, y, &Methods::default(), &mut snell::Counts::default())
 }
 
 /// Asserts that the footprints of some pixels are the differences between what their neighbours show.

@@ -59,9 +59,11 @@ fn neither_threads_nor_tiles_matter() {
 #[test]
 fn the_trees_change_nothing() {
     for (case, expected) in cases() {
-        let options = Options { accelerator: Accelerator::BruteForce, ..Options::default() };
-        let found = render(&snapshot(&case, &text(&case)), &options).picture.hash();
-        assert_eq!(found, expected, "{}", case.name);
+        for accelerator in [Accelerator::SphereTree, Accelerator::BruteForce] {
+            let options = Options { methods: Methods { accelerator, ..Methods::default() }, ..Options::default() };
+            let found = render(&snapshot(&case, &text(&case)), &options).picture.hash();
+            assert_eq!(found, expected, "{}: {accelerator:?}", case.name);
+        }
     }
 }
 

@@ -107,7 +107,15 @@ fn every_level_hits_what_the_exhaustive_test_hits_to_the_last_bit() {
             let mut hits = 0;
             let expected: Vec<Option<Hit>> = rays
                 .iter()
-                .map(|ray| Mesh::hit_exhaustive(&packed, &world(ray, placement), f64::INFINITY, &mut Cost::default()))
+                .map(|ray| {
+                    Mesh::hit_with(
+                        &packed,
+                        &world(ray, placement),
+                        f64::INFINITY,
+                        &Methods::BRUTE_FORCE,
+                        &mut Cost::default(),
+                    )
+                })
                 .collect();
             at_every_level(|| {
                 let level = Level::current();

@@ -20,7 +20,7 @@ fn traced(snapshot: &Snapshot, eye: DVec3, toward: DVec3) -> (Rgb, snell::Counts
     let view = View { eye, right: DVec3::ZERO, up: DVec3::ZERO, forward: toward };
     let inside = Interior::around(eye, &snapshot.geometry, &snapshot.materials);
     let mut counts = snell::Counts::default();
-    let light = pixel(&Snapshot { view, inside, ..snapshot.clone() }, 0, 0, Accelerator::Tree, &mut counts);
+    let light = pixel(&Snapshot { view, inside, ..snapshot.clone() }, 0, 0, &Methods::default(), &mut counts);
     (light, counts)
 }
 

@@ -48,7 +48,7 @@ fn scene(number: usize, background: Rgb, texture: impl Bundle) -> Arc<Snapshot> 
 
 fn picture(snapshot: &Snapshot) -> Vec<Rgb> {
     let all = (0..WIDTH * HEIGHT).map(|i| (i % WIDTH, i / WIDTH));
-    all.map(|(x, y)| pixel(snapshot, x, y, Accelerator::Tree, &mut snell::Counts::default())).collect()
+    all.map(|(x, y)| pixel(snapshot, x, y, &Methods::default(), &mut snell::Counts::default())).collect()
 }
 
 /// The mean over `FINE` by `FINE` rays to each pixel.

@@ -63,7 +63,7 @@ fn observed(snapshot: &Snapshot, name: &str) -> (Picture, Counts) {
     for (i, place) in picture.pixels.iter_mut().enumerate() {
         let (x, y) = (i as u32 % width, i as u32 / width);
         let mut sums = Sums::default();
-        let light = pixel_observed(snapshot, x, y, Accelerator::Tree, &mut counts, &mut sums);
+        let light = pixel_observed(snapshot, x, y, &Methods::default(), &mut counts, &mut sums);
         let bits = |light: Rgb| light.to_array().map(f64::to_bits);
         assert_eq!(bits(sums.pixel), bits(light), "{name}: {x}, {y}");
         *place = light.as_vec3().to_array();

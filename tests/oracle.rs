@@ -19,6 +19,9 @@ use support::{
 /// Unit roundoff.
 const U: f64 = f64::EPSILON / 2.0;
 
+/// The trees of spheres of 2004.
+const SPHERES: Methods = Methods { accelerator: Accelerator::SphereTree, ..Methods::BRUTE_FORCE };
+
 fn vector(random: &mut Random, reach: f64) -> DVec3 {
     let [x, y, z] = [0; 3].map(|_| (random.unit() * 2.0 - 1.0) * reach);
     DVec3::new(x, y, z)
@@ -149,10 +152,12 @@ fn the_nearest_hit_is_that_of_brute_force_bit_for_bit() {
         for _ in 0..1500 {
             let ray = ray(&mut random, &points, last.as_ref());
             let t_max = if random.below(4) == 0 { 20.0 * random.unit() } else { f64::INFINITY };
-            let closest = |with| geometry.closest(&ray, t_max, with, &mut Cost::default());
-            let (tree, brute) = (closest(Accelerator::Tree), closest(Accelerator::BruteForce));
+            let closest = |with| geometry.closest(&ray, t_max, &with, &mut Cost::default());
+            let (tree, brute) = (closest(Methods::default()), closest(Methods::BRUTE_FORCE));
+            let spheres = closest(SPHERES);
             // The text of a number tells −0 from 0.
             assert_eq!(format!("{tree:?}"), format!("{brute:?}"), "seed {seed}: {ray:?}");
+            assert_eq!(format!("{spheres:?}"), format!("{brute:?}"), "seed {seed}: {ray:?}");
             let mut limits = vec![20.0 * random.unit()];
             if let Some(met) = brute {
                 limits.extend([met.t, met.t.next_up(), met.t.next_down()]);
@@ -160,11 +165,12 @@ fn the_nearest_hit_is_that_of_brute_force_bit_for_bit() {
                 assert!(!name.as_str().starts_with("twin"), "seed {seed}: {name} hides its twin from {ray:?}");
             }
             for limit in limits.into_iter().filter(|limit| *limit <= t_max) {
-                let blocked = |with| geometry.blocked(&ray, limit, with, &mut Cost::default());
+                let blocked = |with| geometry.blocked(&ray, limit, &with, &mut Cost::default());
                 let expected = brute.is_some_and(|met| met.t < limit);
-                assert_eq!(blocked(Accelerator::Tree), expected, "seed {seed}, limit {limit}: {ray:?}");
+                assert_eq!(blocked(Methods::default()), expected, "seed {seed}, limit {limit}: {ray:?}");
                 if rays % 8 == 0 {
-                    assert_eq!(blocked(Accelerator::BruteForce), expected, "seed {seed}, limit {limit}: {ray:?}");
+                    assert_eq!(blocked(Methods::BRUTE_FORCE), expected, "seed {seed}, limit {limit}: {ray:?}");
+                    assert_eq!(blocked(SPHERES), expected, "seed {seed}, limit {limit}: {ray:?}");
                 }
             }
             rays += 1;
@@ -185,7 +191,7 @@ fn rays_that_are_none_meet_nothing() {
         (DVec3::INFINITY, DVec3::X),
         (DVec3::ZERO, DVec3::new(f64::INFINITY, 1.0, 0.0)),
     ] {
-        for with in [Accelerator::Tree, Accelerator::BruteForce] {
+        for with in [&Methods::default(), &SPHERES, &Methods::BRUTE_FORCE] {
             let (ray, mut cost) = (Ray { origin, direction }, Cost::default());
             assert!(snapshot.geometry.closest(&ray, f64::INFINITY, with, &mut cost).is_none(), "{ray:?}");
             assert!(!snapshot.geometry.blocked(&ray, f64::INFINITY, with, &mut cost), "{ray:?}");
@@ -198,8 +204,9 @@ fn rays_that_are_none_meet_nothing() {
 fn whole_pictures_are_the_same_without_trees() {
     for scene in gallery() {
         let snapshot = scene.build(0).0.snapshot().expect("a snapshot");
-        let picture = |accelerator| render(&snapshot, &Options { accelerator, ..Options::default() }).picture.hash();
-        assert_eq!(picture(Accelerator::Tree), picture(Accelerator::BruteForce), "{}", scene.name);
+        let picture = |methods| render(&snapshot, &Options { methods, ..Options::default() }).picture.hash();
+        assert_eq!(picture(Methods::default()), picture(Methods::BRUTE_FORCE), "{}", scene.name);
+        assert_eq!(picture(SPHERES), picture(Methods::BRUTE_FORCE), "{}", scene.name);
     }
 }
 
@@ -247,10 +254,10 @@ fn no_ray_leaks_out_of_a_closed_mesh() {
         for i in 0..40_000 {
             let ray = aimed(&mut random, &mesh).transformed(&matrix);
             let mut cost = Cost::default();
-            assert!(geometry.blocked(&ray, f64::INFINITY, Accelerator::Tree, &mut cost), "{placement:?}: {ray:?}");
+            assert!(geometry.blocked(&ray, f64::INFINITY, &Methods::default(), &mut cost), "{placement:?}: {ray:?}");
             if i % 20 == 0 {
-                assert!(geometry.blocked(&ray, f64::INFINITY, Accelerator::BruteForce, &mut cost), "{ray:?}");
-                assert!(geometry.closest(&ray, f64::INFINITY, Accelerator::Tree, &mut cost).is_some(), "{ray:?}");
+                assert!(geometry.blocked(&ray, f64::INFINITY, &Methods::BRUTE_FORCE, &mut cost), "{ray:?}");
+                assert!(geometry.closest(&ray, f64::INFINITY, &Methods::default(), &mut cost).is_some(), "{ray:?}");
             }
         }
     }
@@ -434,7 +441,7 @@ fn the_distance_of_a_sphere_is_true_to_a_few_roundings_however_far_it_is() {
         let aim = center + side * (part * radius);
         let ray = Ray { origin: DVec3::ZERO, direction: aim.normalize() * (0.5 + random.unit()) };
         let geometry = alone((Sphere { radius }, Transform::at(center)));
-        let met = geometry.closest(&ray, f64::INFINITY, Accelerator::Tree, &mut Cost::default());
+        let met = geometry.closest(&ray, f64::INFINITY, &Methods::default(), &mut Cost::default());
         let t = met.unwrap_or_else(|| panic!("missed at {away}: {ray:?}")).t;
         let steep = 1.0 / (1.0 - part * part).sqrt();
         let bar = 16.0 * U * center.length() * steep / ray.direction.length();
@@ -454,7 +461,7 @@ fn the_distance_of_a_plane_is_true_to_a_few_roundings_even_at_grazing_angles() {
         direction.y = (height - origin.y) * math::pow(10.0, -f64::from(i % 12));
         let geometry = alone((Plane {}, Transform::at(DVec3::Y * height)));
         let ray = Ray { origin, direction };
-        let met = geometry.closest(&ray, f64::INFINITY, Accelerator::Tree, &mut Cost::default());
+        let met = geometry.closest(&ray, f64::INFINITY, &Methods::default(), &mut Cost::default());
         let t = met.unwrap_or_else(|| panic!("missed: {ray:?}")).t;
         let [t_, d, o, p, bar] = [t, direction.y, origin.y, height, 4.0 * U].map(Binary::from);
         let rise = p.minus(&o);

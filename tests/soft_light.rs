@@ -13,7 +13,7 @@ fn on_the_ground(x: f64, build: impl FnOnce(&mut World)) -> f64 {
     world.spawn((Plane {}, Diffuse(Rgb::ONE)));
     build(world);
     let snapshot = renderer.snapshot().expect("a snapshot");
-    pixel(&snapshot, 0, 0, Accelerator::Tree, &mut snell::Counts::default()).x
+    pixel(&snapshot, 0, 0, &Methods::default(), &mut snell::Counts::default()).x
 }
 
 /// Puts one thing into a world.

@@ -7,7 +7,7 @@
 
 use crate::random::Random;
 use snell::{
-    Accelerator,
+    Methods,
     components::{math, primitive::Cost, space::Ray},
     prelude::DVec3,
     systems::accelerate::Geometry,
@@ -102,7 +102,7 @@ impl Rays {
             let ray = FileRay::new(eye, (x * right + y * up - back).normalize(), f64::from(FAR));
             primary.rays.push(ray);
             let ray = ray.ray();
-            let found = geometry.closest(&ray, f64::INFINITY, Accelerator::Tree, &mut Cost::default());
+            let found = geometry.closest(&ray, f64::INFINITY, &Methods::default(), &mut Cost::default());
             let Some(hit) = found else { continue };
             let normal = if hit.surface.normal.dot(ray.direction) > 0.0 { -1.0 } else { 1.0 } * hit.surface.normal;
             let start = hit.surface.point + 1e-4 * size * normal;
@@ -141,8 +141,8 @@ impl Rays {
     fn trace_one(&self, ray: &FileRay, geometry: &Geometry, met: &mut Met) {
         let t_max = f64::from(ray.t_max);
         if self.kind == Kind::Shadow {
-            met.hits += u64::from(geometry.blocked(&ray.ray(), t_max, Accelerator::Tree, &mut met.cost));
-        } else if let Some(hit) = geometry.closest(&ray.ray(), t_max, Accelerator::Tree, &mut met.cost) {
+            met.hits += u64::from(geometry.blocked(&ray.ray(), t_max, &Methods::default(), &mut met.cost));
+        } else if let Some(hit) = geometry.closest(&ray.ray(), t_max, &Methods::default(), &mut met.cost) {
             met.hits += 1;
             met.t += hit.t;
         }

@@ -26,6 +26,7 @@
 //! | [`name`], [`describe`], [`asset`], [`written`] | what a thing is called, how its fields are read and written, files it refers to, where it stands in a file |
 //! | [`lanes`] | several numbers at once, at the level the machine has |
 //! | [`bvh`] | the bounding-volume tree, over bounds alone |
+//! | [`method`], [`sphere_tree`], [`real`] | the methods Snell is measured against, and the choice between them |
 //! | [`primitive`] | the contract every shape meets; [`shape`] holds the built-in ones |
 //! | [`figure`] | shapes made of many triangles or spheres by a rule; [`random`] their numbers |
 //! | [`material`], [`texture`], [`light`], [`camera`], [`settings`] | what the rays meet and how the picture is taken |
@@ -50,6 +51,12 @@ pub mod describe;
 pub mod lanes;
 
 pub mod bvh;
+
+pub mod sphere_tree;
+
+pub mod method;
+
+pub mod real;
 
 pub mod primitive;
 

@@ -5,6 +5,7 @@
 
 use crate::{
     describe::Describe,
+    method::Methods,
     space::{BoundingSphere, Bounds, Ray},
 };
 use bevy_ecs::{component::Mutable, prelude::*};
@@ -26,14 +27,21 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
     /// Nearest hit with `0 < t <= t_max`, by a rule that depends on nothing but its arguments.
     fn hit(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit>;
 
-    /// The same hit, bit for bit, found without any acceleration inside the shape: the oracle for `hit`.
-    fn hit_exhaustive(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+    /// The nearest hit by other methods than the default ones, for shapes that have others.
+    ///
+    /// The accelerator must not change a bit of the hit: without one, this is the oracle for `hit`.
+    fn hit_with(packed: &Self::Packed, ray: &Ray, t_max: f64, _with: &Methods, cost: &mut Cost) -> Option<Hit> {
         Self::hit(packed, ray, t_max, cost)
     }
 
     /// Whether anything is hit with `0 < t < t_max`; must agree with `hit`.
     fn blocks(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
         Self::hit(packed, ray, t_max, cost).is_some_and(|hit| hit.t < t_max)
+    }
+
+    /// Like `blocks` by other methods; must agree with `hit_with`.
+    fn blocks_with(packed: &Self::Packed, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
+        Self::hit_with(packed, ray, t_max, with, cost).is_some_and(|hit| hit.t < t_max)
     }
 
     /// The surface at a hit that `hit` returned for this ray; runs once per ray, for the nearest hit only.

@@ -2,10 +2,14 @@
 
 use super::{diff::DiffArguments, fmt::FmtArguments, repro::ReproArguments};
 use crate::Region;
-use clap::{Args, Parser, Subcommand, builder::PossibleValuesParser};
+use clap::{
+    Args, Parser, Subcommand,
+    builder::{PossibleValuesParser, TypedValueParser},
+};
 use snell_charts::study::{ALL as STUDIES, Kind, Study};
 use snell_components::{
     describe::Choice,
+    method::{Accelerator, Methods, Precision, SphereTest, TriangleTest},
     settings::{Antialias, MAX_GRID, MAX_SIZE, MAX_SUBDIVISIONS, Settings},
 };
 use std::path::PathBuf;
@@ -182,6 +186,9 @@ pub(super) struct Drawing {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1024))]
     pub(super) threads: Option<u32>,
 
+    #[command(flatten)]
+    pub(super) methods: MethodArguments,
+
     /// Show neither progress nor summary
     #[arg(short, long)]
     pub(super) quiet: bool,
@@ -214,6 +221,38 @@ pub(super) struct Changes {
     /// statistical stands in docs/error-budget.md.
     #[arg(long, value_name = "E", value_parser = error)]
     pub(super) error: Option<f64>,
+}
+
+/// How rays find what they meet; other than the defaults are for comparison.
+#[derive(Args, Debug, Default)]
+#[command(next_help_heading = "Methods, to compare")]
+pub(super) struct MethodArguments {
+    /// How things along a ray are found; all give the same picture [default: Tree]
+    #[arg(long, value_name = "WAY", ignore_case = true, value_parser = word::<Accelerator>())]
+    accelerator: Option<Accelerator>,
+
+    /// How triangles are tested [default: Sheared]
+    #[arg(long, value_name = "WAY", ignore_case = true, value_parser = word::<TriangleTest>())]
+    triangle_test: Option<TriangleTest>,
+
+    /// How spheres are tested [default: Robust]
+    #[arg(long, value_name = "WAY", ignore_case = true, value_parser = word::<SphereTest>())]
+    sphere_test: Option<SphereTest>,
+
+    /// Numbers in which triangles and spheres are tested [default: F64]
+    #[arg(long, value_name = "WAY", ignore_case = true, value_parser = word::<Precision>())]
+    precision: Option<Precision>,
+}
+
+impl MethodArguments {
+    pub(super) fn methods(&self) -> Methods {
+        Methods {
+            accelerator: self.accelerator.unwrap_or_default(),
+            triangle: self.triangle_test.unwrap_or_default(),
+            sphere: self.sphere_test.unwrap_or_default(),
+            precision: self.precision.unwrap_or_default(),
+        }
+    }
 }
 
 /// Width and height, each 1 to [`MAX_SIZE`].
@@ -317,6 +356,16 @@ fn time(text: &str) -> Result<f64, String> {
         Ok(time) if (0.0..=1e6).contains(&time) => Ok(time),
         _ => Err("expected seconds, 0 to 1000000".into()),
     }
+}
+
+/// Parses a word of a choice.
+fn word<C: Choice + Clone + Default + Send + Sync + 'static>() -> impl TypedValueParser<Value = C> {
+    PossibleValuesParser::new(C::default().words()).map(|word| {
+        let mut choice = C::default();
+        let position = choice.words().iter().position(|known| known.eq_ignore_ascii_case(&word));
+        choice.choose(position.unwrap_or_default());
+        choice
+    })
 }
 
 #[cfg(test)]

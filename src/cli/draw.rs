@@ -62,7 +62,8 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
 
     progress.begin_pixels("tracing", region.area() as u64);
     let on_tile = |_: &_, so_far: crate::Progress| progress.set(so_far.done);
-    let options = Options { region: Some(region), on_tile: Some(&on_tile), ..Options::default() };
+    let options =
+        Options { region: Some(region), methods: how.methods.methods(), on_tile: Some(&on_tile), ..Options::default() };
     stop_on_interrupt(&options.stop);
     let ((frame, snapshot, told), trace) = timed(|| match how.time {
         None => (pool.run(|| render(&snapshot, &options)), snapshot, None),

@@ -31,6 +31,10 @@ pub(super) fn render(
     if let Some(told) = &drawn.timed {
         metadata.insert(key::TIME, told);
     }
+    let methods = args.drawing.methods.methods();
+    if !methods.is_default() {
+        metadata.insert(key::METHODS, methods.to_string());
+    }
     if let Some(file) = picture {
         image::write(file, format, &drawn.frame.picture, &metadata).map_err(work)?;
     }

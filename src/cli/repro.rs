@@ -2,7 +2,7 @@
 
 use super::{
     Console, Failure,
-    args::{Changes, Drawing},
+    args::{Changes, Drawing, MethodArguments},
     diff::write,
     draw::{draw, of_scene},
 };
@@ -57,7 +57,8 @@ pub(super) fn repro(renderer: &mut Renderer, args: &ReproArguments, console: &mu
         return Err(Failure::Usage(message));
     }
     let changes = Changes { settings: Some(settings), ..Changes::default() };
-    let how = Drawing { scene, changes, time: None, region, threads: args.threads, quiet: args.quiet };
+    let methods = MethodArguments::default();
+    let how = Drawing { scene, changes, time: None, region, threads: args.threads, methods, quiet: args.quiet };
     let drawn = draw(renderer, &how, console)?;
     if !drawn.frame.is_complete() {
         return Err(Failure::Stopped(format!("stopped after {} % of the picture", drawn.percent())));

@@ -104,6 +104,28 @@ fn the_hash_is_that_of_the_picture() {
 }
 
 #[test]
+fn methods_can_be_chosen_and_are_told() {
+    let desk = Desk::new();
+    let hash = |words: &str| {
+        let (code, out, _) = desk.run(ball(), &format!("hash @empty.ron --size 32x24 {words}"));
+        assert_eq!(code, 0, "{words}");
+        out
+    };
+    assert_eq!(hash("--accelerator spheretree"), hash(""));
+    assert_eq!(hash("--accelerator BruteForce"), hash("--triangle-test MollerTrumbore"), "there is no triangle");
+    assert_ne!(hash("--precision F32"), hash(""));
+    assert_ne!(hash("--precision F32 --sphere-test naive"), hash("--precision F32 --sphere-test robust"));
+
+    let words = "render @empty.ron -o @a.exr --size 32x24";
+    assert_eq!(desk.run(ball(), words).0, 0);
+    assert_eq!(read(&desk.path("a.exr")).1.get(key::METHODS), None);
+    assert_eq!(desk.run(ball(), &format!("{words} --precision F32")).0, 0);
+    let told = "accelerator Tree, triangle Sheared, sphere Robust, precision F32";
+    assert_eq!(read(&desk.path("a.exr")).1.get(key::METHODS), Some(told));
+    assert_eq!(desk.run(ball(), &format!("{words} --precision F16")).0, 2);
+}
+
+#[test]
 fn a_png_has_the_bits_that_were_asked_for() {
     let desk = Desk::new();
     for (bits, at_24) in [("8", 8), ("16", 16)] {

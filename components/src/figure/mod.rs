@@ -17,6 +17,7 @@ pub use triangle_field::{Arrangement, TriangleField};
 
 use crate::{
     describe::Describe,
+    method::Methods,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     shape::{Mesh, MeshError, PackedMesh, Shading, TriangleMesh},
     space::{BoundingSphere, Bounds, Ray},
@@ -54,8 +55,12 @@ impl<F: Figure> Primitive for F {
         Mesh::hit(packed, ray, t_max, cost)
     }
 
-    fn hit_exhaustive(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
-        Mesh::hit_exhaustive(packed, ray, t_max, cost)
+    fn hit_with(packed: &PackedMesh, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Hit> {
+        Mesh::hit_with(packed, ray, t_max, with, cost)
+    }
+
+    fn blocks_with(packed: &PackedMesh, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
+        Mesh::blocks_with(packed, ray, t_max, with, cost)
     }
 
     #[inline]

@@ -7,6 +7,7 @@ use crate::{
     bvh::{Box32, Bvh},
     describe::{Describe, FieldVisitor, Spec, Value},
     math,
+    method::{Accelerator, Methods},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     shape::{nearest_root, sphere_uv},
     space::{Bounds, Ray},
@@ -158,7 +159,11 @@ impl Primitive for SphereFlake {
         search.best
     }
 
-    fn hit_exhaustive(packed: &PackedSphereFlake, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+    /// Its balls are always tested by the default method, in a tree of boxes or one by one.
+    fn hit_with(packed: &PackedSphereFlake, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Hit> {
+        if with.accelerator != Accelerator::BruteForce {
+            return Self::hit(packed, ray, t_max, cost);
+        }
         let mut search = Search { flake: &packed.flake, ray: packed.placed.local(ray), limit: t_max, best: None };
         search.test(0..packed.flake.leaves.len(), cost);
         search.best
@@ -170,7 +175,7 @@ impl Primitive for SphereFlake {
         packed.flake.tree.any(&ray, t_max, cost, |run, cost| {
             cost.primitives += run.len() as u64;
             let mut balls = packed.flake.leaves[run].iter();
-            balls.any(|ball| nearest_root(ball.center, ball.radius, &ray, t_max).is_some_and(|t| t < t_max))
+            balls.any(|ball| nearest_root::<f64>(ball.center, ball.radius, &ray, t_max).is_some_and(|t| t < t_max))
         })
     }
 
@@ -211,7 +216,7 @@ impl Search<'_> {
         cost.primitives += run.len() as u64;
         for i in run {
             let Ball { center, radius } = self.flake.leaves[i];
-            if let Some(t) = nearest_root(center, radius, &self.ray, self.limit) {
+            if let Some(t) = nearest_root::<f64>(center, radius, &self.ray, self.limit) {
                 let hit = Hit { t, part: self.flake.tree.order()[i] };
                 // On equal distance the lowest index, whatever the order of the walk.
                 if self.best.is_none_or(|best| hit.t < best.t || hit.part < best.part) {
@@ -254,7 +259,7 @@ mod tests {
             let ray = Ray { origin, direction: point(1.5) - origin };
             let [mut cost, mut all] = [Cost::default(); 2];
             let hit = SphereFlake::hit(&packed, &ray, f64::INFINITY, &mut cost);
-            assert_eq!(hit, SphereFlake::hit_exhaustive(&packed, &ray, f64::INFINITY, &mut all));
+            assert_eq!(hit, SphereFlake::hit_with(&packed, &ray, f64::INFINITY, &Methods::BRUTE_FORCE, &mut all));
             assert!(cost.primitives < all.primitives / 4);
             assert_eq!(SphereFlake::blocks(&packed, &ray, 1.0, &mut cost), hit.is_some_and(|hit| hit.t < 1.0));
             let Some(hit) = hit else { continue };

@@ -3,11 +3,12 @@
 //! `shading: AsModelled` smooths the triangles whose corners have normals in the file; `Flat` smooths none; `Smooth`
 //! smooths all, with the area-weighted mean normal of the faces around each vertex where the file has none.
 
-use super::{mesh_tree::MeshTree, shear::RayFrame};
+use super::{mesh_methods::OtherTrees, mesh_tree::MeshTree, shear::RayFrame};
 use crate::{
     asset::Asset,
     choice,
     describe::{Describe, FieldVisitor, Spec, Value},
+    method::Methods,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Bounds, Ray},
 };
@@ -45,6 +46,7 @@ pub struct TriangleMesh {
     slots: Vec<u16>,
     degenerate: usize,
     tree: OnceLock<Arc<MeshTree>>,
+    pub(super) others: OtherTrees,
     smooth_normals: OnceLock<Vec<[f32; 3]>>,
 }
 
@@ -332,26 +334,20 @@ impl Primitive for Mesh {
         placed.tree.nearest(&placed.object_from_world, ray, t_max, cost)
     }
 
-    fn hit_exhaustive(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+    fn hit_with(packed: &PackedMesh, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Hit> {
         let ray = ray.transformed(&packed.placed.object_from_world);
-        let (mesh, frame) = (&packed.placed.mesh, RayFrame::new(&ray));
-        cost.primitives += mesh.len() as u64;
-        let mut best: Option<Hit> = None;
-        for part in 0..mesh.len() {
-            let limit = best.map_or(t_max, |best| best.t);
-            if let Some(hit) = frame.hit(mesh.corners(part), limit)
-                && best.is_none_or(|best| hit.t < best.t)
-            {
-                best = Some(Hit { t: hit.t, part: part as u32 });
-            }
-        }
-        best
+        packed.placed.mesh.hit_with(&ray, t_max, with, cost)
     }
 
     #[inline]
     fn blocks(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
         let placed = &*packed.placed;
         placed.tree.blocks(&placed.object_from_world, ray, t_max, cost)
+    }
+
+    fn blocks_with(packed: &PackedMesh, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
+        let ray = ray.transformed(&packed.placed.object_from_world);
+        packed.placed.mesh.blocks_with(&ray, t_max, with, cost)
     }
 
     fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {

@@ -6,54 +6,54 @@
 //! difference of products can be falsely zero but never has the wrong sign, so with zero counting as inside no ray
 //! slips between them. Contraction to fused multiply-add would break this.
 
-use crate::{lanes::Lanes, space::Ray};
+use super::triangle_kernel::{TriangleHit, TriangleKernel};
+use crate::{
+    lanes::Lanes,
+    real::{self, Real, Vector},
+    space::Ray,
+};
 use glam::DVec3;
 
 /// A ray prepared for triangle tests.
+pub type RayFrame = Sheared<f64>;
+
+/// A ray prepared for triangle tests in either precision.
 #[derive(Clone, Copy, Debug)]
-pub struct RayFrame {
+pub struct Sheared<R> {
     /// Where it starts, in the order of its axes.
-    start: [f64; 3],
+    start: [R; 3],
     kx: usize,
     ky: usize,
     kz: usize,
-    shear_x: f64,
-    shear_y: f64,
-    scale_z: f64,
+    shear_x: R,
+    shear_y: R,
+    scale_z: R,
 }
 
-/// Where a ray met a triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TriangleHit {
-    /// Distance in units of the ray's direction.
-    pub t: f64,
-    /// Weights of the three vertices; not negative, sum 1 up to rounding.
-    pub weights: [f64; 3],
-}
-
-impl RayFrame {
+impl<R: Real> Sheared<R> {
     /// Prepares a ray; its direction must not be zero.
     #[must_use]
     #[inline]
     pub fn new(ray: &Ray) -> Self {
-        let (d, size) = (ray.direction.to_array(), ray.direction.abs());
+        let d: Vector<R> = real::vector(ray.direction);
+        let size = d.map(Real::abs);
         // Without branches: nothing foretells them.
-        let yz = if size.y >= size.z { 1 } else { 2 };
-        let kz = if size.x >= size.y && size.x >= size.z { 0 } else { yz };
+        let yz = if size[1] >= size[2] { 1 } else { 2 };
+        let kz = if size[0] >= size[1] && size[0] >= size[2] { 0 } else { yz };
         // The axes that follow; the winding is kept whichever way the ray runs along its main axis.
         let [next, last] = [[1, 2], [2, 0], [0, 1]][kz];
-        let backward = d[kz] < 0.0;
+        let backward = d[kz] < R::ZERO;
         let (kx, ky) = (if backward { last } else { next }, if backward { next } else { last });
-        let scale_z = 1.0 / d[kz];
-        let origin = ray.origin.to_array();
+        let scale_z = R::ONE / d[kz];
+        let origin: Vector<R> = real::vector(ray.origin);
         let start = [origin[kx], origin[ky], origin[kz]];
         Self { start, kx, ky, kz, shear_x: d[kx] * scale_z, shear_y: d[ky] * scale_z, scale_z }
     }
 
     /// A vertex in the ray's frame: x and y sheared, z still unscaled.
     #[inline]
-    fn place(&self, vertex: DVec3) -> [f64; 3] {
-        let v = vertex.to_array();
+    fn place(&self, vertex: DVec3) -> Vector<R> {
+        let v: Vector<R> = real::vector(vertex);
         let z = v[self.kz] - self.start[2];
         let (x, y) = (v[self.kx] - self.start[0], v[self.ky] - self.start[1]);
         [x - self.shear_x * z, y - self.shear_y * z, z * self.scale_z]
@@ -61,17 +61,20 @@ impl RayFrame {
 
     /// Twice the signed areas that the ray cuts off at the edges opposite to each vertex.
     #[inline]
-    fn edges([a, b, c]: [[f64; 3]; 3]) -> [f64; 3] {
+    fn edges([a, b, c]: [Vector<R>; 3]) -> [R; 3] {
         [c[0] * b[1] - c[1] * b[0], a[0] * c[1] - a[1] * c[0], b[0] * a[1] - b[1] * a[0]]
     }
 
     /// Weights of the three vertices where the ray crosses the triangle's plane, beside the triangle too; those of
-    /// [`RayFrame::hit`] where that hits. The first vertex alone for a ray along the plane.
+    /// [`Sheared::hit`] where that hits. The first vertex alone for a ray along the plane.
     #[must_use]
     pub fn weights(&self, vertices: [DVec3; 3]) -> [f64; 3] {
         let [u, v, w] = Self::edges(vertices.map(|v| self.place(v)));
         let det = u + v + w;
-        if det == 0.0 || !det.is_finite() { [1.0, 0.0, 0.0] } else { [u / det, v / det, w / det] }
+        if det == R::ZERO || !det.is_finite() {
+            return [1.0, 0.0, 0.0];
+        }
+        [u / det, v / det, w / det].map(Real::to_f64)
     }
 
     /// Hit of either side of a triangle with `0 < t <= t_max`; edges and vertices count as inside.
@@ -80,20 +83,34 @@ impl RayFrame {
     pub fn hit(&self, vertices: [DVec3; 3], t_max: f64) -> Option<TriangleHit> {
         let [a, b, c] = vertices.map(|v| self.place(v));
         let [u, v, w] = Self::edges([a, b, c]);
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+        let zero = R::ZERO;
+        if (u < zero || v < zero || w < zero) && (u > zero || v > zero || w > zero) {
             return None;
         }
         let det = u + v + w;
         // Also drops NaN: only a finite, nonzero determinant is a hit.
-        if det == 0.0 || !det.is_finite() {
+        if det == zero || !det.is_finite() {
             return None;
         }
         let t = (u * a[2] + v * b[2] + w * c[2]) / det;
         // A convex combination lies between the vertices; rounding of a needle must not carry it beyond.
         let nearest = min(min(a[2], b[2]), c[2]);
         let farthest = max(max(a[2], b[2]), c[2]);
-        let t = max(nearest, min(farthest, t));
-        if t > 0.0 && t <= t_max { Some(TriangleHit { t, weights: [u / det, v / det, w / det] }) } else { None }
+        let t = max(nearest, min(farthest, t)).to_f64();
+        let weights = || [u / det, v / det, w / det].map(Real::to_f64);
+        if t > 0.0 && t <= t_max { Some(TriangleHit { t, weights: weights() }) } else { None }
+    }
+}
+
+impl<R: Real> TriangleKernel for Sheared<R> {
+    #[inline]
+    fn new(ray: &Ray) -> Self {
+        Self::new(ray)
+    }
+
+    #[inline]
+    fn hit(&self, vertices: [DVec3; 3], t_max: f64) -> Option<TriangleHit> {
+        self.hit(vertices, t_max)
     }
 }
 
@@ -156,12 +173,12 @@ fn cross<L: Lanes>(l: L, p: &[L::D; 3], q: &[L::D; 3]) -> L::D {
 }
 
 #[inline]
-fn min(a: f64, b: f64) -> f64 {
+fn min<R: Real>(a: R, b: R) -> R {
     if a < b { a } else { b }
 }
 
 #[inline]
-fn max(a: f64, b: f64) -> f64 {
+fn max<R: Real>(a: R, b: R) -> R {
     if a > b { a } else { b }
 }
 

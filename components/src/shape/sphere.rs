@@ -6,7 +6,9 @@
 use crate::{
     describe::{Describe, FieldVisitor, Spec, Value},
     math,
+    method::{Methods, Precision, SphereTest},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
+    real::{self, Real, Vector},
     space::{BoundingSphere, Bounds, Ray},
 };
 use bevy_ecs::prelude::*;
@@ -58,6 +60,22 @@ impl PackedSphere {
         let normal = (p - self.center).normalize_or(DVec3::Y);
         (normal, self.center + normal * self.radius)
     }
+
+    #[inline]
+    fn hit_by(
+        &self,
+        root: impl Fn(DVec3, f64, &Ray, f64) -> Option<f64>,
+        ray: &Ray,
+        t_max: f64,
+        cost: &mut Cost,
+    ) -> Option<Hit> {
+        cost.primitives += 1;
+        let t = match &self.ellipsoid {
+            None => root(self.center, self.radius, ray, t_max),
+            Some(maps) => root(self.center, self.radius, &ray.transformed(&maps.object_from_world), t_max),
+        };
+        t.map(|t| Hit { t, part: 0 })
+    }
 }
 
 /// The nearest hit of a sphere with `0 < t <= t_max`.
@@ -65,25 +83,52 @@ impl PackedSphere {
 /// The discriminant comes from the perpendicular foot of the centre on the ray and the nearer root from `c/q`, so that
 /// neither cancels however far or large the sphere (Haines, Günther, Akenine-Möller: Precision Improvements for
 /// Ray/Sphere Intersection, Ray Tracing Gems 7; `c` as a product after the same chapter's remark on huge spheres).
+#[must_use]
 #[inline]
-pub(crate) fn nearest_root(center: DVec3, radius: f64, ray: &Ray, t_max: f64) -> Option<f64> {
-    let f = ray.origin - center;
-    let d = ray.direction;
-    let a = d.dot(d);
-    let b = -f.dot(d);
-    let foot = f + d * (b / a);
-    let gap = radius * radius - foot.dot(foot);
-    if gap < 0.0 {
+pub fn nearest_root<R: Real>(center: DVec3, radius: f64, ray: &Ray, t_max: f64) -> Option<f64> {
+    let d: Vector<R> = real::vector(ray.direction);
+    let f = real::minus(real::vector(ray.origin), real::vector(center));
+    let radius = R::of(radius);
+    let a = real::dot(d, d);
+    let b = -real::dot(f, d);
+    let foot = real::plus(f, real::times(d, b / a));
+    let gap = radius * radius - real::dot(foot, foot);
+    if gap < R::ZERO {
         return None;
     }
-    let distance = f.length();
+    let distance = real::dot(f, f).sqrt();
     let c = (distance - radius) * (distance + radius);
     let root = (a * gap).sqrt();
-    let q = if b < 0.0 { b - root } else { b + root };
+    let q = if b < R::ZERO { b - root } else { b + root };
     // `q` is zero only for a ray tangent at its own origin.
-    let (t0, t1) = if q == 0.0 { (0.0, 0.0) } else { (c / q, q / a) };
+    let (t0, t1) = if q == R::ZERO { (R::ZERO, R::ZERO) } else { (c / q, q / a) };
+    nearer(t0, t1, t_max)
+}
+
+/// The nearest hit with `0 < t <= t_max` by the quadratic as textbooks have it: the discriminant cancels for spheres
+/// that are far away or large, and the nearer root from within or near the surface.
+#[must_use]
+#[inline]
+pub fn naive_root<R: Real>(center: DVec3, radius: f64, ray: &Ray, t_max: f64) -> Option<f64> {
+    let d: Vector<R> = real::vector(ray.direction);
+    let f = real::minus(real::vector(ray.origin), real::vector(center));
+    let (radius, two) = (R::of(radius), R::ONE + R::ONE);
+    let a = real::dot(d, d);
+    let b = two * real::dot(f, d);
+    let c = real::dot(f, f) - radius * radius;
+    let discriminant = b * b - two * two * a * c;
+    if discriminant < R::ZERO {
+        return None;
+    }
+    let root = discriminant.sqrt();
+    nearer((-b - root) / (two * a), (-b + root) / (two * a), t_max)
+}
+
+/// The lesser of two distances that is more than zero.
+#[inline]
+fn nearer<R: Real>(t0: R, t1: R, t_max: f64) -> Option<f64> {
     let (near, far) = if t0 < t1 { (t0, t1) } else { (t1, t0) };
-    let t = if near > 0.0 { near } else { far };
+    let t = if near > R::ZERO { near } else { far }.to_f64();
     (t > 0.0 && t <= t_max).then_some(t)
 }
 
@@ -125,12 +170,17 @@ impl Primitive for Sphere {
 
     #[inline]
     fn hit(packed: &PackedSphere, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
-        cost.primitives += 1;
-        let t = match &packed.ellipsoid {
-            None => nearest_root(packed.center, packed.radius, ray, t_max),
-            Some(maps) => nearest_root(packed.center, packed.radius, &ray.transformed(&maps.object_from_world), t_max),
+        packed.hit_by(nearest_root::<f64>, ray, t_max, cost)
+    }
+
+    fn hit_with(packed: &PackedSphere, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Hit> {
+        let root = match (with.sphere, with.precision) {
+            (SphereTest::Robust, Precision::F64) => nearest_root::<f64>,
+            (SphereTest::Robust, Precision::F32) => nearest_root::<f32>,
+            (SphereTest::Naive, Precision::F64) => naive_root::<f64>,
+            (SphereTest::Naive, Precision::F32) => naive_root::<f32>,
         };
-        t.map(|t| Hit { t, part: 0 })
+        packed.hit_by(root, ray, t_max, cost)
     }
 
     fn surface(packed: &PackedSphere, ray: &Ray, hit: Hit) -> Surface {

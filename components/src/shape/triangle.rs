@@ -2,9 +2,13 @@
 //!
 //! The front faces the side from which a, b, c run counter-clockwise. Without `uvs`, u and v are the weights of b and c.
 
-use super::shear::RayFrame;
+use super::{
+    shear::RayFrame,
+    triangle_kernel::{TriangleKernel, WithKernel, choose},
+};
 use crate::{
     describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    method::Methods,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Bounds, Ray},
 };
@@ -84,6 +88,11 @@ impl Primitive for Triangle {
         RayFrame::new(ray).hit(packed.vertices, t_max).map(|h| Hit { t: h.t, part: 0 })
     }
 
+    fn hit_with(packed: &PackedTriangle, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Hit> {
+        cost.primitives += 1;
+        choose(with, ray, Alone { vertices: packed.vertices, t_max })
+    }
+
     fn surface(packed: &PackedTriangle, ray: &Ray, _: Hit) -> Surface {
         let [u, v, w] = RayFrame::new(ray).weights(packed.vertices);
         let [a, b, c] = packed.vertices;
@@ -102,6 +111,20 @@ impl Primitive for Triangle {
 
     fn bounding_sphere(packed: &PackedTriangle, bounds: &Bounds) -> BoundingSphere {
         BoundingSphere::about(bounds.center(), packed.vertices)
+    }
+}
+
+/// A triangle to be tested by any method.
+struct Alone {
+    vertices: [DVec3; 3],
+    t_max: f64,
+}
+
+impl WithKernel for Alone {
+    type Output = Option<Hit>;
+
+    fn run<K: TriangleKernel>(self, kernel: &K) -> Option<Hit> {
+        kernel.hit(self.vertices, self.t_max).map(|hit| Hit { t: hit.t, part: 0 })
     }
 }
 

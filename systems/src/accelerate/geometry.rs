@@ -3,23 +3,15 @@
 use super::pool::{Best, ErasedPool, Nearest};
 use snell_components::{
     bvh::{Box32, Bvh},
+    method::{Accelerator, Methods, Precision},
     primitive::{Cost, Extent, Hit, Surface},
     space::Ray,
+    sphere_tree::SphereTree,
 };
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// Most shapes in a leaf of the tree over all shapes.
 const LEAF: usize = 2;
-
-/// How the nearest hit is found; all ways give the same bits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Accelerator {
-    /// By the trees.
-    #[default]
-    Tree,
-    /// By testing every shape and every triangle: the oracle.
-    BruteForce,
-}
 
 /// A run of shapes of one type.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +45,15 @@ pub struct Geometry {
     leaf_runs: Vec<(u32, u32)>,
     /// Shapes that no box holds; tested by every ray.
     unbounded: Vec<Run>,
+    /// Made when first asked for.
+    spheres: OnceLock<Spheres>,
+}
+
+/// The shapes of the tree sorted into a tree of spheres.
+struct Spheres {
+    tree: SphereTree,
+    /// One shape each, in the tree's order.
+    runs: Vec<Run>,
 }
 
 impl Geometry {
@@ -99,15 +100,21 @@ impl Geometry {
         }
         let pools = pools.iter().zip(&orders).map(|(pool, order)| pool.permuted(order)).collect();
         let tree = (!shapes.is_empty()).then_some(tree);
-        Self { tree, pools, runs, leaf_runs, unbounded }
+        Self { tree, pools, runs, leaf_runs, unbounded, spheres: OnceLock::new() }
     }
 
     /// Nearest hit with `0 < t <= t_max`; among equally near ones the object first in the order of names.
     #[must_use]
-    pub fn closest(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> Option<Intersection> {
+    pub fn closest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Intersection> {
         let nearest = self.nearest(ray, t_max, with, cost)?;
         let Nearest { hit, pool, index, object } = nearest;
-        let surface = self.pools[pool as usize].surface(index, ray, hit);
+        let mut surface = self.pools[pool as usize].surface(index, ray, hit);
+        if with.precision == Precision::F32 {
+            // As much less sure as the numbers are shorter.
+            let travelled = hit.t * ray.direction.length();
+            surface.error += Surface::rounding(surface.point.abs().max_element() + travelled);
+            surface.error *= f64::from(f32::EPSILON) / f64::EPSILON;
+        }
         Some(Intersection { surface, t: hit.t, object, shape: (pool, index, hit.part) })
     }
 
@@ -118,7 +125,7 @@ impl Geometry {
         self.pools[pool as usize].surface(index, ray, Hit { t, part })
     }
 
-    fn nearest(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> Option<Nearest> {
+    fn nearest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Nearest> {
         if !ray.is_valid() {
             return None;
         }
@@ -126,7 +133,7 @@ impl Geometry {
         for run in &self.unbounded {
             self.search(run, ray, with, &mut best, cost);
         }
-        match (&self.tree, with) {
+        match (&self.tree, with.accelerator) {
             (None, _) => {}
             (Some(tree), Accelerator::Tree) => tree.walk(ray, best.limit, cost, |leaf, _, cost| {
                 let (begin, end) = self.leaf_runs[leaf.start];
@@ -135,6 +142,15 @@ impl Geometry {
                 }
                 best.limit
             }),
+            (Some(_), Accelerator::SphereTree) => {
+                let Spheres { tree, runs } = self.spheres();
+                tree.walk(ray, best.limit, cost, |own, _, cost| {
+                    for run in &runs[own] {
+                        self.search(run, ray, with, &mut best, cost);
+                    }
+                    best.limit
+                });
+            }
             (Some(_), Accelerator::BruteForce) => {
                 for run in &self.runs {
                     self.search(run, ray, with, &mut best, cost);
@@ -144,29 +160,42 @@ impl Geometry {
         best.nearest
     }
 
-    fn search(&self, run: &Run, ray: &Ray, with: Accelerator, best: &mut Best, cost: &mut Cost) {
+    fn search(&self, run: &Run, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
         best.pool = run.pool;
         self.pools[run.pool as usize].closest(run.first as usize..run.end as usize, ray, with, best, cost);
     }
 
     /// Whether anything is hit with `0 < t < t_max`.
     #[must_use]
-    pub fn blocked(&self, ray: &Ray, t_max: f64, with: Accelerator, cost: &mut Cost) -> bool {
-        if with == Accelerator::BruteForce {
-            return self.nearest(ray, t_max, with, cost).is_some_and(|nearest| nearest.hit.t < t_max);
-        }
+    pub fn blocked(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
         if !ray.is_valid() {
             return false;
         }
         let blocks = |run: &Run, cost: &mut Cost| {
-            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, cost)
+            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, with, cost)
         };
         self.unbounded.iter().any(|run| blocks(run, cost))
-            || self.tree.as_ref().is_some_and(|tree| {
-                tree.any(ray, t_max, cost, |leaf, cost| {
+            || self.tree.as_ref().is_some_and(|tree| match with.accelerator {
+                Accelerator::Tree => tree.any(ray, t_max, cost, |leaf, cost| {
                     let (begin, end) = self.leaf_runs[leaf.start];
                     self.runs[begin as usize..end as usize].iter().any(|run| blocks(run, cost))
-                })
+                }),
+                Accelerator::SphereTree => {
+                    let Spheres { tree, runs } = self.spheres();
+                    tree.any(ray, t_max, cost, |own, cost| runs[own].iter().any(|run| blocks(run, cost)))
+                }
+                Accelerator::BruteForce => self.runs.iter().any(|run| blocks(run, cost)),
             })
+    }
+
+    fn spheres(&self) -> &Spheres {
+        self.spheres.get_or_init(|| {
+            let each = |&Run { pool, first, end }: &Run| (first..end).map(move |i| Run { pool, first: i, end: i + 1 });
+            let shapes: Vec<Run> = self.runs.iter().flat_map(each).collect();
+            let sphere = |run: &Run| self.pools[run.pool as usize].bounding_sphere(run.first);
+            let tree = SphereTree::build(shapes.iter().filter_map(sphere));
+            let runs = tree.order().iter().map(|&i| shapes[i as usize]).collect();
+            Spheres { tree, runs }
+        })
     }
 }

@@ -8,6 +8,6 @@ mod geometry;
 mod pack;
 mod pool;
 
-pub use geometry::{Accelerator, Geometry, Intersection};
+pub use geometry::{Geometry, Intersection};
 pub use pack::{Scenery, build, pack, pool, unpack};
 pub use pool::{ErasedPool, Nearest, Pool};

@@ -1,10 +1,10 @@
 //! All packed shapes of one type, behind an interface that knows no type.
 
-use super::geometry::Accelerator;
 use core::ops::Range;
 use snell_components::{
+    method::Methods,
     primitive::{Cost, Extent, Hit, Primitive, Surface},
-    space::Ray,
+    space::{BoundingSphere, Ray},
 };
 use std::sync::Arc;
 
@@ -33,10 +33,13 @@ pub trait ErasedPool: Send + Sync {
     fn objects(&self) -> &[u32];
 
     /// The nearest hit within the run that beats `best`: nearer, or as near and of an earlier object.
-    fn closest(&self, run: Range<usize>, ray: &Ray, with: Accelerator, best: &mut Best, cost: &mut Cost);
+    fn closest(&self, run: Range<usize>, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost);
 
     /// Whether a shape of the run blocks the ray before `t_max`.
-    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool;
+    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool;
+
+    /// The sphere around a shape, if it is bounded.
+    fn bounding_sphere(&self, index: u32) -> Option<BoundingSphere>;
 
     /// The surface of a hit.
     fn surface(&self, index: u32, ray: &Ray, hit: Hit) -> Surface;
@@ -71,6 +74,19 @@ impl<P: Primitive> Pool<P> {
         }
         this
     }
+
+    #[inline]
+    fn search(&self, run: Range<usize>, best: &mut Best, mut hit: impl FnMut(&P::Packed, f64) -> Option<Hit>) {
+        for index in run {
+            if let Some(hit) = hit(&self.shapes[index], best.limit) {
+                let object = self.objects[index];
+                if best.nearest.is_none_or(|nearest| hit.t < nearest.hit.t || object < nearest.object) {
+                    best.limit = hit.t;
+                    best.nearest = Some(Nearest { hit, pool: best.pool, index: index as u32, object });
+                }
+            }
+        }
+    }
 }
 
 impl<P: Primitive> ErasedPool for Pool<P> {
@@ -91,25 +107,29 @@ impl<P: Primitive> ErasedPool for Pool<P> {
         &self.objects
     }
 
-    fn closest(&self, run: Range<usize>, ray: &Ray, with: Accelerator, best: &mut Best, cost: &mut Cost) {
-        for index in run {
-            let shape = &self.shapes[index];
-            let hit = match with {
-                Accelerator::Tree => P::hit(shape, ray, best.limit, cost),
-                Accelerator::BruteForce => P::hit_exhaustive(shape, ray, best.limit, cost),
-            };
-            if let Some(hit) = hit {
-                let object = self.objects[index];
-                if best.nearest.is_none_or(|nearest| hit.t < nearest.hit.t || object < nearest.object) {
-                    best.limit = hit.t;
-                    best.nearest = Some(Nearest { hit, pool: best.pool, index: index as u32, object });
-                }
-            }
+    fn closest(&self, run: Range<usize>, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
+        // Chosen once per run, so that the usual loop knows of no other method.
+        if with.is_default() {
+            self.search(run, best, |shape, limit| P::hit(shape, ray, limit, cost));
+        } else {
+            self.search(run, best, |shape, limit| P::hit_with(shape, ray, limit, with, cost));
         }
     }
 
-    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
-        self.shapes[run].iter().any(|shape| P::blocks(shape, ray, t_max, cost))
+    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
+        let mut shapes = self.shapes[run].iter();
+        if with.is_default() {
+            shapes.any(|shape| P::blocks(shape, ray, t_max, cost))
+        } else {
+            shapes.any(|shape| P::blocks_with(shape, ray, t_max, with, cost))
+        }
+    }
+
+    fn bounding_sphere(&self, index: u32) -> Option<BoundingSphere> {
+        match &self.extents[index as usize] {
+            Extent::Bounded(bounds) => Some(P::bounding_sphere(&self.shapes[index as usize], bounds)),
+            Extent::Unbounded => None,
+        }
     }
 
     fn surface(&self, index: u32, ray: &Ray, hit: Hit) -> Surface {

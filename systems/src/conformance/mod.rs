@@ -13,7 +13,7 @@
 //! |---|---|
 //! | `pack` | bounds are finite and in order |
 //! | `bounds` | every hit lies within them |
-//! | `nearest` | `hit` equals `hit_exhaustive` bit for bit, and nothing nearer is hit with any lower limit |
+//! | `nearest` | `hit` equals `hit_with` without a tree bit for bit, and nothing nearer is hit with any lower limit |
 //! | `blocks` | `blocks` agrees with `hit` |
 //! | `surface` | the point is where the ray is, within its stated error; normals have length 1 |
 //! | `normal` | the normal is that of the hits nearby, by finite differences |

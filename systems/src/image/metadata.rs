@@ -15,6 +15,8 @@ pub mod key {
     pub const SCENE: &str = "snell:scene";
     /// All settings of the scene with what the command line changed, as a scene file would have them.
     pub const SETTINGS: &str = "snell:settings";
+    /// The methods by which rays found what they met; absent if those are the default ones.
+    pub const METHODS: &str = "snell:methods";
     /// The region drawn, as `x,y,width,height`; absent if that is the whole picture.
     pub const REGION: &str = "snell:region";
     /// Pixels drawn and pixels asked for, as `drawn/asked`; absent if all were drawn.

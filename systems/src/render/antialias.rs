@@ -6,9 +6,10 @@ use super::{
     observe::Observer,
     trace::light_along,
 };
-use crate::{accelerate::Accelerator, snapshot::Snapshot};
+use crate::snapshot::Snapshot;
 use snell_components::{
     color::Rgb,
+    method::Methods,
     settings::{Antialias, MAX_SUBDIVISIONS, Settings},
 };
 use std::collections::{BTreeMap, BinaryHeap};
@@ -19,7 +20,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 /// right and the row below. It depends on the corner alone, so what is kept changes the cost, never a bit.
 pub(super) struct Pixels<'a, O> {
     snapshot: &'a Snapshot,
-    accelerator: Accelerator,
+    methods: &'a Methods,
     pub(super) counts: &'a mut Counts,
     observer: &'a mut O,
     corners: Corners,
@@ -43,11 +44,11 @@ const STEPS: u32 = 1 << (MAX_SUBDIVISIONS + 1);
 impl<'a, O: Observer> Pixels<'a, O> {
     pub(super) fn new(
         snapshot: &'a Snapshot,
-        accelerator: Accelerator,
+        methods: &'a Methods,
         counts: &'a mut Counts,
         observer: &'a mut O,
     ) -> Self {
-        Self { snapshot, accelerator, counts, observer, corners: Corners::default(), traced: 0 }
+        Self { snapshot, methods, counts, observer, corners: Corners::default(), traced: 0 }
     }
 
     /// The linear light of a pixel: a function of snapshot and coordinates.
@@ -99,9 +100,9 @@ impl<'a, O: Observer> Pixels<'a, O> {
         self.traced += 1;
         let (light, object) = if snapshot.materials.any_filtered {
             let beside = Neighbours::start(snapshot, x, y, spacing);
-            light_along(snapshot, ray, beside, key, self.accelerator, self.counts, self.observer)
+            light_along(snapshot, ray, beside, key, self.methods, self.counts, self.observer)
         } else {
-            light_along(snapshot, ray, (), key, self.accelerator, self.counts, self.observer)
+            light_along(snapshot, ray, (), key, self.methods, self.counts, self.observer)
         };
         Seen { light, object, number }
     }

@@ -5,12 +5,12 @@
 //! 2002). A surface of a body that does not count where it lies is passed as if it were not there.
 
 use crate::{
-    accelerate::{Accelerator, Geometry},
+    accelerate::Geometry,
     snapshot::{Materials, Medium},
 };
 use glam::DVec3;
 use smallvec::SmallVec;
-use snell_components::{color::Rgb, math, primitive::Cost, space::Ray};
+use snell_components::{color::Rgb, math, method::Methods, primitive::Cost, space::Ray};
 
 /// The clear bodies around a point, by rank of the object, in the order in which they were entered.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl Interior {
         // Any direction will do; this one runs along no axis and no diagonal.
         let mut ray = Ray { origin: point, direction: DVec3::new(0.48, 0.64, 0.6) };
         let mut crossings: Vec<(u32, i64)> = vec![];
-        while let Some(met) = geometry.closest(&ray, f64::INFINITY, Accelerator::Tree, &mut Cost::default()) {
+        while let Some(met) = geometry.closest(&ray, f64::INFINITY, &Methods::default(), &mut Cost::default()) {
             if materials.medium(met.object).is_some() {
                 let step = if met.surface.normal.dot(ray.direction) > 0.0 { 1 } else { -1 };
                 match crossings.iter_mut().find(|(object, _)| *object == met.object) {

@@ -8,7 +8,7 @@ use super::{
     optics,
 };
 use crate::{
-    accelerate::{Accelerator, Intersection},
+    accelerate::Intersection,
     snapshot::{Effect, Material, Snapshot},
 };
 use core::cell::LazyCell;
@@ -17,6 +17,7 @@ use snell_components::{
     color::Rgb,
     light::{Illumination, Sampling},
     math,
+    method::Methods,
     primitive::{Cost, OFFSET_ULPS, Surface},
     space::Ray,
     texture::{Footprint, TexturePoint},
@@ -25,7 +26,7 @@ use snell_components::{
 /// A point to be shaded, its normals turned toward the viewer.
 pub(super) struct Point<'a> {
     pub snapshot: &'a Snapshot,
-    pub accelerator: Accelerator,
+    pub methods: &'a Methods,
     /// Unit direction of the ray that came here.
     pub direction: DVec3,
     /// How far the ray went, world units.
@@ -42,7 +43,7 @@ pub(super) struct Point<'a> {
 impl<'a> Point<'a> {
     pub(super) fn new(
         snapshot: &'a Snapshot,
-        accelerator: Accelerator,
+        methods: &'a Methods,
         ray: &Ray,
         met: Intersection,
         interior: &'a Interior,
@@ -56,7 +57,7 @@ impl<'a> Point<'a> {
         }
         let material = snapshot.materials.at(met.object, surface.slot);
         let (direction, travelled) = (ray.direction, met.t);
-        Self { snapshot, accelerator, direction, travelled, surface, material, entering, interior, key }
+        Self { snapshot, methods, direction, travelled, surface, material, entering, interior, key }
     }
 
     /// Sum of the ambient, diffuse and highlight terms; `weight` is what it is multiplied by in the pixel.
@@ -163,7 +164,7 @@ impl<'a> Point<'a> {
         let mut rest = short_of_the_light(&ray, distance);
         if !materials.any_transparent && materials.media.is_empty() {
             counts.shadow += 1;
-            if geometry.blocked(&ray, rest, self.accelerator, &mut cost) {
+            if geometry.blocked(&ray, rest, self.methods, &mut cost) {
                 visible = Rgb::ZERO;
             }
             counts.add(cost);
@@ -174,7 +175,7 @@ impl<'a> Point<'a> {
         let mut interior = self.interior.clone();
         while visible != Rgb::ZERO {
             counts.shadow += 1;
-            let met = geometry.closest(&ray, rest, self.accelerator, &mut cost).filter(|met| met.t < rest);
+            let met = geometry.closest(&ray, rest, self.methods, &mut cost).filter(|met| met.t < rest);
             let length = ray.direction.length();
             if !materials.media.is_empty() {
                 let t = met.map_or(rest, |met| met.t);

@@ -1,9 +1,10 @@
 //! The picture in tiles, drawn in parallel; stopping, progress.
 
 use super::{Counts, Picture, Region, antialias::Pixels};
-use crate::{accelerate::Accelerator, snapshot::Snapshot};
+use crate::snapshot::Snapshot;
 use core::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use rayon::prelude::*;
+use snell_components::method::Methods;
 use std::sync::Arc;
 
 /// Stops a render from another thread; clones stop the same render.
@@ -50,7 +51,7 @@ pub struct Tile {
 /// Told of every tile as it is finished, from the thread that drew it.
 pub type OnTile<'a> = &'a (dyn Fn(&Tile, Progress) + Sync);
 
-/// How to render; none of it changes a bit of any pixel.
+/// How to render; none of it but methods other than the default tests changes a bit of any pixel.
 #[derive(Clone, Default)]
 pub struct Options<'a> {
     /// Threads; by default those of the pool the call runs in.
@@ -60,7 +61,7 @@ pub struct Options<'a> {
     /// Edge of a tile in pixels; by default 32.
     pub tile: Option<u32>,
     /// How rays find what they meet.
-    pub accelerator: Accelerator,
+    pub methods: Methods,
     /// Stops the render from elsewhere.
     pub stop: Stop,
     /// Told of every tile as it is finished.
@@ -153,7 +154,7 @@ fn draw(snapshot: &Snapshot, region: Region, options: &Options<'_>) -> (Tile, Co
     let mut pixels = vec![[0.0; 3]; region.area()];
     let mut counts = Counts::default();
     let observer = &mut ();
-    let mut drawing = Pixels::new(snapshot, options.accelerator, &mut counts, observer);
+    let mut drawing = Pixels::new(snapshot, &options.methods, &mut counts, observer);
     let mut rows = 0;
     for (y, row) in pixels.chunks_mut(region.width as usize).enumerate() {
         if options.stop.is_stopped() {

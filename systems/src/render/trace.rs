@@ -10,22 +10,20 @@ use super::{
     optics,
     shade::{Point, straight_eta},
 };
-use crate::{
-    accelerate::Accelerator,
-    snapshot::{Effect, Snapshot},
-};
+use crate::snapshot::{Effect, Snapshot};
 use glam::DVec3;
 use smallvec::SmallVec;
 use snell_components::{
     color::Rgb,
+    method::Methods,
     primitive::{Cost, Surface},
     space::Ray,
 };
 
 /// The linear light of a pixel: a pure function of its arguments but for the counts.
 #[must_use]
-pub fn pixel(snapshot: &Snapshot, x: u32, y: u32, accelerator: Accelerator, counts: &mut Counts) -> Rgb {
-    pixel_observed(snapshot, x, y, accelerator, counts, &mut ())
+pub fn pixel(snapshot: &Snapshot, x: u32, y: u32, methods: &Methods, counts: &mut Counts) -> Rgb {
+    pixel_observed(snapshot, x, y, methods, counts, &mut ())
 }
 
 /// [`pixel`], to the last bit, while `observer` is told how it comes about.
@@ -34,11 +32,11 @@ pub fn pixel_observed<O: Observer>(
     snapshot: &Snapshot,
     x: u32,
     y: u32,
-    accelerator: Accelerator,
+    methods: &Methods,
     counts: &mut Counts,
     observer: &mut O,
 ) -> Rgb {
-    Pixels::new(snapshot, accelerator, counts, observer).light(x, y)
+    Pixels::new(snapshot, methods, counts, observer).light(x, y)
 }
 
 /// A ray yet to be traced.
@@ -65,7 +63,7 @@ pub(super) fn light_along<B: Beside, O: Observer>(
     ray: Ray,
     beside: B,
     key: Key,
-    accelerator: Accelerator,
+    methods: &Methods,
     counts: &mut Counts,
     observer: &mut O,
 ) -> (Rgb, Option<u32>) {
@@ -80,7 +78,7 @@ pub(super) fn light_along<B: Beside, O: Observer>(
     pending.push(Pending { ray, beside, weight, depth: 0, interior, wavelength: None, key });
     while let Some(Pending { ray, beside, mut weight, depth, interior, wavelength, key }) = pending.pop() {
         let mut cost = Cost::default();
-        let met = snapshot.geometry.closest(&ray, f64::INFINITY, accelerator, &mut cost);
+        let met = snapshot.geometry.closest(&ray, f64::INFINITY, methods, &mut cost);
         counts.add(cost);
         if !materials.media.is_empty() {
             let travelled = met.map_or(f64::INFINITY, |met| met.t);
@@ -92,7 +90,7 @@ pub(super) fn light_along<B: Beside, O: Observer>(
             observer.added(Added::Background, weight, settings.background);
             continue;
         };
-        let point = Point::new(snapshot, accelerator, &ray, met, &interior, key);
+        let point = Point::new(snapshot, methods, &ray, met, &interior, key);
         let sides = materials.medium(met.object).map(|_| interior.sides(met.object, point.entering, materials));
         if sides == Some(None) {
             // The surface lies inside a body that counts before its own: it is not there.

@@ -8,11 +8,11 @@ mod tree;
 pub use tree::{Contribution, DroppedRay, LampLight, Met, RayTree, Sample, Share, Start, Term, Thing, TracedRay};
 
 use crate::{
-    accelerate::Accelerator,
     render::{Counts, pixel_observed},
     snapshot::Snapshot,
 };
 use record::Recorder;
+use snell_components::method::Methods;
 
 /// How the pixel in a column and row comes about.
 ///
@@ -20,7 +20,7 @@ use record::Recorder;
 #[must_use]
 pub fn why(snapshot: &Snapshot, x: u32, y: u32) -> RayTree {
     let mut recorder = Recorder::new(snapshot);
-    let light = pixel_observed(snapshot, x, y, Accelerator::Tree, &mut Counts::default(), &mut recorder);
+    let light = pixel_observed(snapshot, x, y, &Methods::default(), &mut Counts::default(), &mut recorder);
     let (width, height) = (snapshot.settings.width, snapshot.settings.height);
     let shown = light.as_vec3();
     let pixel = if shown.is_finite() { shown.to_array() } else { [0.0; 3] };

@@ -2,12 +2,11 @@
 
 use super::tree::{Contribution, DroppedRay, LampLight, Met, Sample, Share, Start, Term, Thing, TracedRay};
 use crate::{
-    accelerate::Accelerator,
     render::{Added, Dropped, Forward, Look, Observer, Traced, Way},
     snapshot::{Effect, Snapshot},
 };
 use core::mem;
-use snell_components::{color::Rgb, light::Illumination, primitive::Cost, space::Ray};
+use snell_components::{color::Rgb, light::Illumination, method::Methods, primitive::Cost, space::Ray};
 
 /// Most things told to stand before a light.
 const MOST_IN_THE_WAY: usize = 8;
@@ -91,7 +90,7 @@ impl<'a> Recorder<'a> {
         let end = ray.at(light.distance);
         let mut rest = light.distance;
         while things.len() < MOST_IN_THE_WAY {
-            let met = geometry.closest(&ray, rest, Accelerator::Tree, &mut Cost::default());
+            let met = geometry.closest(&ray, rest, &Methods::default(), &mut Cost::default());
             let Some(met) = met.filter(|met| met.t < rest) else { break };
             let thing = Thing::entity(names.get(met.object as usize).and_then(Option::as_ref));
             // Bodies show a front and a back.

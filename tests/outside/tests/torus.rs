@@ -1,15 +1,15 @@
 //! What a primitive from outside gets without a line of its own.
 
 use outside::Torus;
-use snell::{Accelerator, Faults, Picture, prelude::*};
+use snell::{Faults, Picture, prelude::*};
 
 const SCENE: &str = include_str!("../scenes/torus.ron");
 
-fn draw(text: &str, accelerator: Accelerator) -> Result<Picture, Faults> {
+fn draw(text: &str, methods: Methods) -> Result<Picture, Faults> {
     let mut renderer = Renderer::new().with_primitive::<Torus>();
     renderer.load_text(text, "torus.ron")?;
     let snapshot = renderer.snapshot().expect("a scene that can be drawn");
-    let frame = render(&snapshot, &Options { accelerator, ..Options::default() });
+    let frame = render(&snapshot, &Options { methods, ..Options::default() });
     assert_eq!(frame.counts.not_finite, 0);
     Ok(frame.picture)
 }
@@ -20,8 +20,8 @@ fn brightness(picture: &Picture, x: u32, y: u32) -> f32 {
 
 #[test]
 fn it_is_drawn_from_a_scene_file_and_casts_a_shadow() {
-    let with = draw(SCENE, Accelerator::Tree).expect("a sound scene");
-    let without = draw(&SCENE.replace("Torus(major: 1, minor: 0.35),", "Sphere(radius: 0.001),"), Accelerator::Tree)
+    let with = draw(SCENE, Methods::default()).expect("a sound scene");
+    let without = draw(&SCENE.replace("Torus(major: 1, minor: 0.35),", "Sphere(radius: 0.001),"), Methods::default())
         .expect("a sound scene");
     // The ring is orange where it is seen; red is the brightest channel.
     let [red, green, blue] = with.pixel(25, 40).expect("a pixel");
@@ -33,14 +33,14 @@ fn it_is_drawn_from_a_scene_file_and_casts_a_shadow() {
 
 #[test]
 fn the_tree_and_brute_force_draw_the_same_bits() {
-    let [tree, brute] = [Accelerator::Tree, Accelerator::BruteForce].map(|with| draw(SCENE, with).expect("sound"));
+    let [tree, brute] = [Methods::default(), Methods::BRUTE_FORCE].map(|with| draw(SCENE, with).expect("sound"));
     assert_eq!(tree.hash(), brute.hash());
 }
 
 #[test]
 fn its_fields_are_checked_like_those_of_the_built_in_shapes() {
     let faults =
-        |from: &str, to: &str| draw(&SCENE.replace(from, to), Accelerator::Tree).expect_err("a fault").to_string();
+        |from: &str, to: &str| draw(&SCENE.replace(from, to), Methods::default()).expect_err("a fault").to_string();
     let misspelt = faults("minor: 0.35", "minr: 0.35");
     assert!(misspelt.contains("torus.ron:8:29") && misspelt.contains("did you mean `minor`"), "{misspelt}");
 
