@@ -1,4 +1,5 @@
-//! Files: charts as SVG and PNG, tables as CSV and JSON, pictures, and one page that puts them together.
+//! Files: charts as SVG and PNG, tables as CSV and JSON, pictures, and one page that puts them together (HTML, and
+//! Markdown to be put into other texts).
 
 use crate::{
     chart,
@@ -56,6 +57,7 @@ pub fn write(folder: &Path, title: &str, about: &str, studies: &[Found]) -> io::
             .collect(),
     };
     fs::write(folder.join("charts.json"), serde_json::to_vec_pretty(&json)?)?;
+    fs::write(folder.join("charts.md"), markdown(about, studies))?;
     let page = folder.join("index.html");
     fs::write(&page, html(title, about, studies))?;
     Ok(page)
@@ -113,6 +115,27 @@ fn html(title: &str, about: &str, studies: &[Found]) -> String {
         escaped(about)
     );
     page
+}
+
+/// The charts with what they say, to be put into other texts; short tables in full.
+fn markdown(about: &str, studies: &[Found]) -> String {
+    let mut text = String::new();
+    for study in studies {
+        let says: Vec<&str> = study.says.iter().map(String::as_str).filter(|sentence| !sentence.is_empty()).collect();
+        let _ = write!(text, "## {}\n\n{}\n\n", study.title, says.join(" "));
+        for chart in &study.charts {
+            let _ = write!(text, "![{}]({}.svg)\n\n", chart.title, chart.file);
+        }
+        if study.charts.is_empty() {
+            let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
+            text += &line(study.table.columns.clone());
+            text += &line(vec!["---".into(); study.table.columns.len()]);
+            study.table.rows.iter().for_each(|row| text += &line(row.iter().map(Cell::to_string).collect()));
+            text.push('\n');
+        }
+    }
+    let _ = write!(text, "{about}\n");
+    text
 }
 
 fn rows(table: &Table) -> String {

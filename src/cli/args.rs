@@ -121,15 +121,16 @@ pub(super) struct WhyArguments {
     pub(super) svg: Option<PathBuf>,
 }
 
-/// Chart speed against accuracy for a scene
+/// Chart speed against accuracy for scenes
 ///
 /// Measures settings against a converged picture and draws time against error: SVG, PNG, tables as CSV and JSON, and a page
 /// that puts them together. Ends with advice.
 #[derive(Args, Debug)]
 #[command(after_help = studies())]
 pub(super) struct ChartArguments {
-    /// Scene file; ready studies need none
-    pub(super) scene: Option<PathBuf>,
+    /// Scene files; ready studies need none
+    #[arg(value_name = "SCENE")]
+    pub(super) scenes: Vec<PathBuf>,
 
     /// Folder for the files [default: the scene's name with -charts]
     #[arg(short, long, value_name = "DIR")]

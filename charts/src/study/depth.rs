@@ -6,6 +6,7 @@ use crate::{
     table::short,
 };
 use snell_components::settings::Settings;
+use snell_systems::compare::Difference;
 
 /// More rays to a pixel than this are not waited for.
 const MOST_RAYS: f64 = 3000.0;
@@ -70,6 +71,7 @@ pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindranc
         ],
         table: measure::table(&measured),
         pictures: vec![],
+        about: None,
     })
 }
 
@@ -80,14 +82,17 @@ fn goes_on(effect: &snell_systems::snapshot::Effect) -> bool {
 fn says(measured: &[Measured]) -> Vec<String> {
     let deepest = |rule: &str| measured.iter().rfind(|m| m.group == rule);
     let mut says = vec![];
-    if let (Some(full), Some(cut)) = (deepest("nothing cut"), deepest("proved: at most 0.5/255")) {
+    let at = |rule: &str, depth: &str| measured.iter().find(|m| m.group == rule && m.label == depth);
+    let full = deepest("nothing cut");
+    if let Some((full, cut)) = full.and_then(|full| Some((full, at("proved: at most 0.5/255", &full.label)?))) {
+        let off = Difference::between(&full.picture, &cut.picture).map_or(0.0, |difference| difference.max);
         says.push(format!(
-            "Cutting what provably shows less than 0.5/255 leaves {:.1} of {:.1} rays in a pixel at {}, with a largest error of \
-             {:.2}/255.",
+            "Cutting what provably shows less than 0.5/255 leaves {:.1} of {:.1} rays in a pixel at {}; no channel of a pixel \
+             changes by more than {:.2}/255.",
             cut.counts.rays() as f64 / cut.picture.pixels.len().max(1) as f64,
             full.counts.rays() as f64 / full.picture.pixels.len().max(1) as f64,
             full.label,
-            255.0 * cut.difference.max,
+            255.0 * off,
         ));
     }
     if let Some(default) = measured.iter().find(|m| m.default) {

@@ -64,6 +64,7 @@ pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindranc
         ],
         table: measure::table(&measured),
         pictures: vec![],
+        about: None,
     })
 }
 

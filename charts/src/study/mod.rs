@@ -1,12 +1,15 @@
 //! Studies: what is measured, one file each.
 
 mod antialias;
+mod area;
 mod depth;
+mod error;
 mod lights;
 mod scene;
 mod settings;
 mod textures;
 mod threads;
+mod triangles;
 
 pub use scene::Scene;
 
@@ -14,7 +17,7 @@ use crate::{
     chart::{Axis, Chart, Point, Series},
     clock,
     measure::{Effort, Measured},
-    table::Table,
+    table::{Cell, Table},
 };
 use snell_systems::{extract::SceneError, render::Picture};
 
@@ -41,11 +44,14 @@ pub enum Kind {
 /// All studies: first those of the user's scene.
 pub const ALL: &[Study] = &[
     Study { name: "settings", about: "all settings side by side, with advice", kind: Kind::OfScene(settings::study) },
+    Study { name: "error", about: "whether the error promised by --error is kept", kind: Kind::OfScene(error::study) },
     Study { name: "antialias", about: "rays in a pixel", kind: Kind::OfScene(antialias::study) },
     Study { name: "lights", about: "samples of lights with an area", kind: Kind::OfScene(lights::study) },
     Study { name: "depth", about: "depth of reflections and cut-off", kind: Kind::OfScene(depth::study) },
     Study { name: "textures", about: "filters of textures", kind: Kind::OfScene(textures::study) },
     Study { name: "threads", about: "time against threads", kind: Kind::OfScene(threads::study) },
+    Study { name: "triangles", about: "time against the number of triangles", kind: Kind::Ready(triangles::study) },
+    Study { name: "area", about: "time against the area on the screen", kind: Kind::Ready(area::study) },
 ];
 
 /// What a study found.
@@ -55,6 +61,8 @@ pub struct Found {
     pub name: String,
     /// What it is about.
     pub title: String,
+    /// The scene, where there are several.
+    pub about: Option<String>,
     /// What the charts say, a sentence each.
     pub says: Vec<String>,
     /// Drawings.
@@ -63,6 +71,35 @@ pub struct Found {
     pub table: Table,
     /// Pictures with what they show.
     pub pictures: Vec<(String, Picture)>,
+}
+
+impl Found {
+    /// Puts the name of a scene before those of the files, where several scenes share a folder.
+    pub fn belongs_to(&mut self, scene: &str) {
+        self.name = format!("{scene}-{}", self.name);
+        self.charts.iter_mut().for_each(|chart| chart.file = format!("{scene}-{}", chart.file));
+        self.about = Some(scene.into());
+    }
+}
+
+/// One table of what a study of errors found in several scenes.
+#[must_use]
+pub fn side_by_side(found: &[Found]) -> Option<Found> {
+    let of_error: Vec<_> = found.iter().filter(|found| found.name.ends_with("-error")).collect();
+    let first = of_error.first().filter(|_| of_error.len() > 1)?;
+    let mut table = Table { columns: vec!["scene".into()], rows: vec![] };
+    table.columns.extend(first.table.columns.iter().cloned());
+    for study in &of_error {
+        let scene = study.about.as_deref().unwrap_or_default();
+        let row = |row: &Vec<Cell>| core::iter::once(scene.into()).chain(row.iter().cloned()).collect();
+        table.rows.extend(study.table.rows.iter().map(row));
+    }
+    Some(Found {
+        name: "errors".into(),
+        title: "All scenes: whether the error is kept".into(),
+        table,
+        ..Found::default()
+    })
 }
 
 /// Why a study cannot be done.

@@ -25,6 +25,15 @@ impl Scene {
         Self { name: name.into(), renderer }
     }
 
+    /// The renderer, without the scene, for another one.
+    #[must_use]
+    pub fn cleared(self) -> Renderer {
+        let mut renderer = self.renderer;
+        renderer.world.clear_entities();
+        *renderer.settings() = Settings::default();
+        renderer
+    }
+
     /// The settings that the scene gives.
     #[must_use]
     pub fn settings(&self) -> Settings {

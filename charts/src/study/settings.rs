@@ -74,6 +74,7 @@ pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindranc
         ],
         table: measure::table(&measured),
         pictures: pictures(&measured, reference),
+        about: None,
     })
 }
 
@@ -88,7 +89,8 @@ fn on_the_front(measured: &[Measured]) -> String {
     match measured.iter().filter(beats).min_by(|a, b| a.difference.rmse.total_cmp(&b.difference.rmse)) {
         None => "The default settings lie on the Pareto front of rays and error: nothing tried here has a smaller error with as few rays.".into(),
         Some(better) => format!(
-            "The default settings are not on the front: {} has a smaller error with no more rays ({} against {}).",
+            "The default settings are beaten by {} ({} against {}): their finer cut-off, 0.001, is for what one ray to a pixel \
+             cannot show.",
             better.label,
             measure::in_short(better),
             measure::in_short(default)

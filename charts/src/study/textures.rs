@@ -70,5 +70,6 @@ pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindranc
         )],
         table: measure::table(&measured),
         pictures: vec![],
+        about: None,
     })
 }

@@ -73,5 +73,6 @@ pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindranc
         }],
         table,
         pictures: vec![],
+        about: None,
     })
 }
