@@ -134,7 +134,7 @@ fn markdown(about: &str, studies: &[Found]) -> String {
             text.push('\n');
         }
     }
-    let _ = write!(text, "{about}\n");
+    let _ = writeln!(text, "{about}");
     text
 }
 
