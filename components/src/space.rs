@@ -30,8 +30,11 @@ impl Ray {
 
     /// Whether every coordinate is finite and the direction is not zero; nothing else may be traced.
     #[must_use]
+    #[inline]
     pub fn is_valid(&self) -> bool {
-        self.origin.is_finite() && self.direction.is_finite() && self.direction != DVec3::ZERO
+        // Zero times a number is zero unless that is infinite or not a number.
+        let zero = self.origin * 0.0 + self.direction * 0.0;
+        zero.x + zero.y + zero.z == 0.0 && self.direction != DVec3::ZERO
     }
 }
 

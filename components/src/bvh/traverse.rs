@@ -119,6 +119,9 @@ pub(crate) struct Leaf {
 
 /// What is done with the leaves along a ray.
 pub(crate) trait Visitor {
+    /// Whether it stops at the first thing found, so that the nearest need not come first.
+    const ANY: bool;
+
     /// Tests what a leaf holds. Returns the distance beyond which nothing matters from now on, or nothing to stop.
     ///
     /// To be `#[inline(always)]`: see [`Job::run`].
@@ -157,6 +160,15 @@ fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, c
             let node = &nodes[child.0 as usize];
             cost.nodes += 1;
             let (near, mut mask) = ray.enter(lanes, node, limit);
+            if V::ANY && mask != 0 {
+                // Any order finds whether there is something; the last child is as good as the nearest.
+                while mask & (mask - 1) != 0 {
+                    stack.push(first(&[0.0; WIDTH], node, mask));
+                    mask &= mask - 1;
+                }
+                child = Child(first(&[0.0; WIDTH], node, mask) as u32);
+                continue;
+            }
             if mask != 0 {
                 let mut distances = [0.0; WIDTH];
                 lanes.f_store(near, &mut distances);
@@ -174,24 +186,32 @@ fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, c
                     child = Child(a as u32);
                     continue;
                 }
+                let c = first(&distances, node, mask);
+                mask &= mask - 1;
+                let (a, c) = if a < c { (a, c) } else { (c, a) };
+                let (b, c) = if b < c { (b, c) } else { (c, b) };
+                if mask == 0 {
+                    stack.push(c);
+                    stack.push(b);
+                    child = Child(a as u32);
+                    continue;
+                }
                 // Sorted, farthest first.
                 let base = stack.len();
+                stack.push(c);
                 stack.push(b);
                 stack.push(a);
-                loop {
-                    let c = first(&distances, node, mask);
+                while mask != 0 {
+                    let d = first(&distances, node, mask);
                     mask &= mask - 1;
-                    stack.push(c);
+                    stack.push(d);
                     let new = stack.since(base);
                     let mut i = new.len() - 1;
-                    while i > 0 && new[i - 1] < c {
+                    while i > 0 && new[i - 1] < d {
                         new[i] = new[i - 1];
                         i -= 1;
                     }
-                    new[i] = c;
-                    if mask == 0 {
-                        break;
-                    }
+                    new[i] = d;
                 }
             }
         }
@@ -214,7 +234,7 @@ impl Blocks {
 }
 
 /// The walk of a [`Bvh`] as a job.
-struct Walk<'a, F> {
+struct Walk<'a, F, const ANY: bool> {
     tree: &'a Bvh,
     ray: &'a Ray,
     limit: f64,
@@ -222,19 +242,21 @@ struct Walk<'a, F> {
     leaf: F,
 }
 
-impl<F: FnMut(Range<usize>, &mut Cost) -> Option<f64>> Job for Walk<'_, F> {
+impl<F: FnMut(Range<usize>, &mut Cost) -> Option<f64>, const ANY: bool> Job for Walk<'_, F, ANY> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Lanes>(mut self, lanes: L) {
-        walk(lanes, &self.tree.nodes, self.ray, self.limit, self.cost, &mut Runs(&mut self.leaf));
+        walk(lanes, &self.tree.nodes, self.ray, self.limit, self.cost, &mut Runs::<_, ANY>(&mut self.leaf));
     }
 }
 
 /// Leaves as runs of [`Bvh::order`].
-struct Runs<F>(F);
+struct Runs<F, const ANY: bool>(F);
 
-impl<F: FnMut(Range<usize>, &mut Cost) -> Option<f64>> Visitor for Runs<F> {
+impl<F: FnMut(Range<usize>, &mut Cost) -> Option<f64>, const ANY: bool> Visitor for Runs<F, ANY> {
+    const ANY: bool = ANY;
+
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, _: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
         (self.0)(leaf.first..leaf.first + leaf.len, cost)
@@ -259,7 +281,7 @@ impl Bvh {
             nearest = leaf(run, nearest, cost);
             Some(nearest)
         };
-        lanes::run(Walk { tree: self, ray, limit, cost, leaf });
+        lanes::run(Walk::<_, false> { tree: self, ray, limit, cost, leaf });
     }
 
     /// Whether `leaf` says yes for any leaf along the ray within the limit; stops at the first that does.
@@ -276,7 +298,7 @@ impl Bvh {
             found = leaf(run, cost);
             (!found).then_some(limit)
         };
-        lanes::run(Walk { tree: self, ray, limit, cost, leaf });
+        lanes::run(Walk::<_, true> { tree: self, ray, limit, cost, leaf });
         found
     }
 }

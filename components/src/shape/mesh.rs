@@ -353,16 +353,16 @@ impl Primitive for Mesh {
     fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
         let placed = &*packed.placed;
         let mesh = &*placed.mesh;
-        let corners = mesh.triangles[hit.part as usize];
-        let vertices = mesh.points(corners);
+        let vertices = placed.tree.vertices(hit.part);
+        let [a, b, c] = vertices;
         let object_ray = ray.transformed(&placed.object_from_world);
         let [u, v, w] = RayFrame::new(&object_ray).weights(vertices);
         let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
-        let normal = (placed.cotangent * mesh.cross(corners)).normalize_or(DVec3::Y);
+        let normal = (placed.cotangent * (b - a).cross(c - a)).normalize_or(DVec3::Y);
         let normals = match placed.shading {
             Shading::Flat => None,
             Shading::Smooth => Some(mesh.normals.of(hit.part).map_or_else(
-                || corners.map(|v| point(mesh.smooth_normals()[v as usize])),
+                || mesh.triangles[hit.part as usize].map(|v| point(mesh.smooth_normals()[v as usize])),
                 |normals| normals.map(DVec3::from_array),
             )),
             Shading::AsModelled => mesh.normals.of(hit.part).map(|normals| normals.map(DVec3::from_array)),

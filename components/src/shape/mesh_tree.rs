@@ -10,13 +10,15 @@ use crate::{
     primitive::{Cost, Hit},
     space::{BoundingSphere, Bounds, Ray},
 };
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 /// A tree, and the triangles in the order of its leaves: four in a block.
 #[derive(Debug)]
 pub(super) struct MeshTree {
     tree: Blocks,
     blocks: Vec<Block>,
+    /// Where each triangle stands: four times its block and its lane.
+    places: Vec<u32>,
     /// Around all triangles, object space.
     pub(super) sphere: BoundingSphere,
     /// Largest coordinate of a vertex.
@@ -33,11 +35,15 @@ impl MeshTree {
             Block([0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| triangles.map(|triangle| triangle[vertex][axis]))))
         };
         let blocks = tree.order().iter().map(block).collect();
+        let mut places = vec![0; len];
+        for (i, &triangle) in tree.order().as_flattened().iter().enumerate() {
+            places[triangle as usize] = i as u32;
+        }
         let all = || (0..len).flat_map(|i| corners(i as u32)).map(point);
         let bounds = Bounds::of_points(all());
         let sphere = BoundingSphere::about(bounds.center(), all());
         let magnitude = bounds.min.abs().max(bounds.max.abs()).max_element();
-        Self { tree, blocks, sphere, magnitude }
+        Self { tree, blocks, places, sphere, magnitude }
     }
 
     /// Up to eight boxes that together hold all triangles, object space.
@@ -47,7 +53,16 @@ impl MeshTree {
 
     /// Bytes it occupies.
     pub(super) fn bytes(&self) -> usize {
-        self.tree.bytes() + self.blocks.len() * size_of::<Block>()
+        self.tree.bytes() + self.blocks.len() * size_of::<Block>() + self.places.len() * size_of::<u32>()
+    }
+
+    /// The vertices of a triangle, from where the search has just read them.
+    #[inline]
+    pub(super) fn vertices(&self, triangle: u32) -> [DVec3; 3] {
+        let place = self.places[triangle as usize] as usize;
+        let Block(vertices) = &self.blocks[place / BLOCK];
+        let lane = place % BLOCK;
+        vertices.map(|[x, y, z]| point([x[lane], y[lane], z[lane]]))
     }
 
     /// The nearest hit within `t_max`, the lowest triangle among equally near ones; the ray is in the world.
@@ -91,6 +106,8 @@ struct Search<'a> {
 }
 
 impl Visitor for Search<'_> {
+    const ANY: bool = false;
+
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
         cost.primitives += leaf.len as u64;
@@ -141,6 +158,8 @@ struct AnySearch<'a> {
 }
 
 impl Visitor for AnySearch<'_> {
+    const ANY: bool = true;
+
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
         cost.primitives += leaf.len as u64;

@@ -13,6 +13,9 @@ use std::sync::{Arc, OnceLock};
 /// Most shapes in a leaf of the tree over all shapes.
 const LEAF: usize = 2;
 
+/// Up to so many shapes are tested one by one: preparing a ray for boxes costs more than it saves.
+const FLAT: usize = 4;
+
 /// A run of shapes of one type.
 #[derive(Clone, Copy, Debug)]
 struct Run {
@@ -37,6 +40,7 @@ pub struct Intersection {
 /// Every shape of a scene; immutable and shared.
 #[derive(Default)]
 pub struct Geometry {
+    /// Over all bounded shapes, unless they are few.
     tree: Option<Bvh>,
     pools: Vec<Arc<dyn ErasedPool>>,
     /// Runs of the tree's leaves, in leaf order.
@@ -99,7 +103,7 @@ impl Geometry {
             leaf_runs[start] = (begin as u32, runs.len() as u32);
         }
         let pools = pools.iter().zip(&orders).map(|(pool, order)| pool.permuted(order)).collect();
-        let tree = (!shapes.is_empty()).then_some(tree);
+        let tree = (shapes.len() > FLAT).then_some(tree);
         Self { tree, pools, runs, leaf_runs, unbounded, spheres: OnceLock::new() }
     }
 
@@ -134,7 +138,6 @@ impl Geometry {
             self.search(run, ray, with, &mut best, cost);
         }
         match (&self.tree, with.accelerator) {
-            (None, _) => {}
             (Some(tree), Accelerator::Tree) => tree.walk(ray, best.limit, cost, |leaf, _, cost| {
                 let (begin, end) = self.leaf_runs[leaf.start];
                 for run in &self.runs[begin as usize..end as usize] {
@@ -142,7 +145,7 @@ impl Geometry {
                 }
                 best.limit
             }),
-            (Some(_), Accelerator::SphereTree) => {
+            (_, Accelerator::SphereTree) if !self.runs.is_empty() => {
                 let Spheres { tree, runs } = self.spheres();
                 tree.walk(ray, best.limit, cost, |own, _, cost| {
                     for run in &runs[own] {
@@ -151,7 +154,7 @@ impl Geometry {
                     best.limit
                 });
             }
-            (Some(_), Accelerator::BruteForce) => {
+            _ => {
                 for run in &self.runs {
                     self.search(run, ray, with, &mut best, cost);
                 }
@@ -174,18 +177,20 @@ impl Geometry {
         let blocks = |run: &Run, cost: &mut Cost| {
             self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, with, cost)
         };
-        self.unbounded.iter().any(|run| blocks(run, cost))
-            || self.tree.as_ref().is_some_and(|tree| match with.accelerator {
-                Accelerator::Tree => tree.any(ray, t_max, cost, |leaf, cost| {
-                    let (begin, end) = self.leaf_runs[leaf.start];
-                    self.runs[begin as usize..end as usize].iter().any(|run| blocks(run, cost))
-                }),
-                Accelerator::SphereTree => {
-                    let Spheres { tree, runs } = self.spheres();
-                    tree.any(ray, t_max, cost, |own, cost| runs[own].iter().any(|run| blocks(run, cost)))
-                }
-                Accelerator::BruteForce => self.runs.iter().any(|run| blocks(run, cost)),
-            })
+        if self.unbounded.iter().any(|run| blocks(run, cost)) {
+            return true;
+        }
+        match (&self.tree, with.accelerator) {
+            (Some(tree), Accelerator::Tree) => tree.any(ray, t_max, cost, |leaf, cost| {
+                let (begin, end) = self.leaf_runs[leaf.start];
+                self.runs[begin as usize..end as usize].iter().any(|run| blocks(run, cost))
+            }),
+            (_, Accelerator::SphereTree) if !self.runs.is_empty() => {
+                let Spheres { tree, runs } = self.spheres();
+                tree.any(ray, t_max, cost, |own, cost| runs[own].iter().any(|run| blocks(run, cost)))
+            }
+            _ => self.runs.iter().any(|run| blocks(run, cost)),
+        }
     }
 
     fn spheres(&self) -> &Spheres {
