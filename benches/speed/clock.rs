@@ -18,3 +18,10 @@ pub(crate) fn spent<R>(work: impl FnOnce() -> R) -> (R, Spent) {
     let result = work();
     (result, Spent { wall: wall.elapsed().as_secs_f64(), cpu: cpu.elapsed().as_secs_f64() })
 }
+
+/// The middle value; of an even count the upper one of the two.
+pub(crate) fn median(values: impl IntoIterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.into_iter().collect();
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}

@@ -2,18 +2,52 @@
 
 mod clock;
 mod contestant;
+mod frame;
+mod growth;
+mod kernel;
+mod load;
+mod measure;
 mod random;
 mod rays;
+mod record;
 mod subject;
 
-use clap::{Parser, Subcommand};
-use std::{path::PathBuf, process::ExitCode};
+use clap::{Parser, Subcommand, ValueEnum};
+use measure::show;
+use std::{error::Error, path::PathBuf, process::ExitCode};
+use subject::{Subject, field, scanned, waves};
 
 /// How fast Snell builds, traces, draws and loads, here and now.
 #[derive(Parser)]
+#[command(args_conflicts_with_subcommands = true)]
 struct Arguments {
+    /// What cargo says to every bench.
+    #[arg(long, hide = true, global = true)]
+    bench: bool,
+    /// What to measure; by default everything.
+    benches: Vec<Bench>,
+    /// Measured rounds; medians are told.
+    #[arg(long, default_value_t = 5)]
+    rounds: usize,
+    /// Write all figures to a file, with the machine and the commit.
+    #[arg(long)]
+    record: Option<PathBuf>,
     #[command(subcommand)]
-    command: Command,
+    command: Option<Command>,
+}
+
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Bench {
+    /// Trees of meshes.
+    Build,
+    /// Rays by kind.
+    Trace,
+    /// Whole pictures.
+    Frame,
+    /// Models from their files.
+    Load,
+    /// Time against triangles and pixels.
+    Growth,
 }
 
 #[derive(Subcommand)]
@@ -44,10 +78,12 @@ enum Command {
 }
 
 fn main() -> ExitCode {
-    let done = match Arguments::parse().command {
-        Command::Rays { mesh, rays } => contestant::write_rays(&mesh, &rays),
-        Command::Contestant { mesh, rays } => contestant::answer(&mesh, &rays),
-        Command::Frame { scene, threads, picture } => contestant::draw(&scene, threads, &picture),
+    let arguments = Arguments::parse();
+    let done = match &arguments.command {
+        Some(Command::Rays { mesh, rays }) => contestant::write_rays(mesh, rays),
+        Some(Command::Contestant { mesh, rays }) => contestant::answer(mesh, rays),
+        Some(Command::Frame { scene, threads, picture }) => contestant::draw(scene, *threads, picture),
+        None => measure(&arguments),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,
@@ -56,4 +92,42 @@ fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Measures what is asked for, and tells of each part as it is done.
+fn measure(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
+    let wanted = |bench| arguments.benches.is_empty() || arguments.benches.contains(&bench);
+    let rounds = arguments.rounds;
+    let (mut rows, mut fits) = (vec![], vec![]);
+    let mut add = |more: Vec<measure::Row>| {
+        show(&more);
+        rows.extend(more);
+    };
+    // 30 000 triangles apart from each other, and as many far larger than the space each has to itself.
+    let mut subjects: Vec<Subject> = vec![waves(708), field(30_000, 0.5, false), field(30_000, 4.0, true)];
+    subjects.extend(scanned());
+    if wanted(Bench::Build) {
+        add(kernel::build(&subjects, rounds)?);
+    }
+    if wanted(Bench::Trace) {
+        add(kernel::trace(&subjects, rounds));
+    }
+    if wanted(Bench::Frame) {
+        add(frame::bench(&subjects, rounds));
+    }
+    if wanted(Bench::Load) {
+        add(load::bench(&subjects, rounds)?);
+    }
+    if wanted(Bench::Growth) {
+        for (more, fit) in [growth::with_triangles(rounds), growth::with_pixels(rounds)] {
+            add(more);
+            let growth::Fit { what, at_zero, per_unit, residual } = &fit;
+            println!("{what}: {at_zero:.4} + {per_unit:.4} a unit; at most {:.1} % off", 100.0 * residual);
+            fits.push(fit);
+        }
+    }
+    if let Some(file) = &arguments.record {
+        record::write(file, rounds, &rows, &fits)?;
+    }
+    Ok(())
 }

@@ -1,18 +1,22 @@
 //! Meshes to measure with.
 
+use crate::random::Random;
 use snell::{
     Renderer, Snapshot,
+    components::math,
     prelude::{DAffine3, DVec3, Mesh, Name, Primitive, TriangleMesh},
 };
 use std::{
     fs,
     io::{self, Error, ErrorKind},
-    path::Path,
+    path::{Path, PathBuf},
+    process::Command,
     sync::Arc,
 };
 
-/// An indexed triangle mesh.
+/// An indexed triangle mesh with a name.
 pub(crate) struct Subject {
+    pub(crate) name: String,
     pub(crate) positions: Vec<[f32; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
 }
@@ -30,6 +34,7 @@ impl Subject {
             return Err(wrong());
         }
         Ok(Self {
+            name: path.file_stem().unwrap_or_default().to_string_lossy().into(),
             positions: positions.as_chunks().0.iter().map(|p| p.map(f32::from_le_bytes)).collect(),
             triangles: corners.as_chunks().0.iter().map(|c| c.map(u32::from_le_bytes)).collect(),
         })
@@ -58,4 +63,76 @@ impl Subject {
 /// Builds the tree of a mesh that has none yet.
 pub(crate) fn build(mesh: &Mesh) {
     mesh.pack(&DAffine3::IDENTITY).expect("a mesh with a surface");
+}
+
+/// The scanned models that are there, packed ones where `xz` is there; says which are not.
+pub(crate) fn scanned() -> Vec<Subject> {
+    let data = std::env::var_os("SNELL_DATA").map_or("../shared/data".into(), PathBuf::from);
+    let bunny = data.join("meshes/stanford_bunny/stanford-bunny.obj");
+    let dragon = data.join("meshes/stanford_dragon/dragon_vrip.obj.xz");
+    let texts = [("bunny", fs::read(&bunny).ok()), ("dragon", unpacked(&dragon))];
+    let mut found = vec![];
+    for (name, text) in texts {
+        match text {
+            Some(text) => found.push(Subject { name: name.into(), ..read_obj(&String::from_utf8_lossy(&text)) }),
+            None => println!("skipped: {name} (not in {}, or no `xz`)", data.display()),
+        }
+    }
+    found
+}
+
+fn unpacked(file: &Path) -> Option<Vec<u8>> {
+    let output = Command::new("xz").arg("-dc").arg(file).output().ok()?;
+    output.status.success().then_some(output.stdout)
+}
+
+/// Vertices and triangles; all that the scanned models hold.
+fn read_obj(text: &str) -> Subject {
+    let mut subject = Subject { name: String::new(), positions: vec![], triangles: vec![] };
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => subject.positions.push([(); 3].map(|()| number(&mut words))),
+            Some("f") => subject.triangles.push([(); 3].map(|()| number::<u32>(&mut words) - 1)),
+            _ => {}
+        }
+    }
+    subject
+}
+
+fn number<'a, T: std::str::FromStr>(words: &mut impl Iterator<Item = &'a str>) -> T {
+    words.next().and_then(|word| word.parse().ok()).expect("a number")
+}
+
+/// Triangles of edges about `size` in a cube, as many along each edge as there are units: on a grid, or at random.
+pub(crate) fn field(count: u32, size: f64, random: bool) -> Subject {
+    let along = (1..).find(|n| n * n * n >= count).unwrap_or(1);
+    let mut numbers = Random(u64::from(count));
+    let mut positions = Vec::with_capacity(3 * count as usize);
+    for n in 0..count {
+        let cell = [n % along, n / along % along, n / along / along];
+        let center = cell.map(|n| if random { numbers.unit() * f64::from(along) } else { f64::from(n) + 0.5 });
+        for _ in 0..3 {
+            positions.push(center.map(|x| (x + size * (2.0 * numbers.unit() - 1.0)) as f32));
+        }
+    }
+    Subject {
+        name: format!("{}, {count}", if random { "chaotic" } else { "sparse" }),
+        positions,
+        triangles: (0..count).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect(),
+    }
+}
+
+/// Waves over a square, of `2 · edge²` triangles.
+pub(crate) fn waves(edge: u32) -> Subject {
+    let wave = |x: f64| math::sin_cos_degrees(x * 1080.0).0;
+    let side = edge + 1;
+    let at = |i: u32| [i % side, i / side].map(|k| f64::from(k) / f64::from(edge));
+    let point = |[x, z]: [f64; 2]| [x, 0.04 * (wave(x) + wave(z + 0.3 * x)), z].map(|x| x as f32);
+    let corner = (0..edge * edge).map(|i| (i / edge) * side + i % edge);
+    Subject {
+        name: format!("waves, {}", 2 * edge * edge),
+        positions: (0..side * side).map(|i| point(at(i))).collect(),
+        triangles: corner.flat_map(|a| [[a, a + side, a + 1], [a + 1, a + side, a + side + 1]]).collect(),
+    }
 }

@@ -1,8 +1,8 @@
 //! Wavefront OBJ models with their MTL materials.
 //!
-//! A file is read once, statement by statement. Each is checked first, so that a fault has its line and column and all
-//! faults of a file are found at once; what passes is handed to `tobj` in the form it is known to read rightly. What has
-//! no meaning here is passed over with a notice. Missing or unreadable material libraries and textures are noticed, too:
+//! A file is read once, statement by statement, each checked so that a fault has its line and column and all faults of a
+//! file are found at once. Libraries of materials pass a like check and are then read by `tobj`, which the check of
+//! models has no need of: it has read every number already. What has no meaning here is passed over with a notice. Missing or unreadable material libraries and textures are noticed, too:
 //! the shape is there without them.
 //!
 //! What is read beyond the plain statements: relative indices, indices that point ahead, continued lines, LF, CR LF and
@@ -44,9 +44,9 @@ pub use material::ModelMaterial;
 
 use super::fault::{Fault, Faults, Notice, Position, nearest};
 use super::{file, image};
-use feed::Feed;
 use log::Log;
 use mtl::Library;
+use rayon::prelude::*;
 use scan::Scan;
 use snell_components::shape::TriangleMesh;
 use snell_components::texture::Image;
@@ -82,26 +82,16 @@ pub fn read(path: &Path) -> Result<(Model, Vec<Notice>), Faults> {
     let whole = |fault: Fault| Faults(vec![fault]);
     let reader = file::open_text(path, MOST_BYTES).map_err(whole)?;
     let mut scan = Scan::new(path);
-    let options = tobj::LoadOptions::default();
-    // Materials stay out of the parser's sight: they would split the mesh.
-    let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let parsed = Feed::parse(reader, &mut scan, |feed| tobj::load_obj_buf(feed, &options, no_library));
-    let parsed = parsed.map_err(|message| whole(Fault::of_file(path, message)))?;
+    scan.read(reader).map_err(|error| whole(Fault::of_file(path, format!("cannot be read: {error}"))))?;
     let mut materials = Materials::read(path, &mut scan);
     let mut faults = vec![];
     let mut model = None;
     if scan.faces == 0 && !scan.log.has_faults() {
         faults.push(Fault::of_file(path, "has no faces"));
-    } else if let Some((mut models, _)) = parsed.filter(|_| !scan.log.has_faults()) {
-        let parsed = models.pop().filter(|model| models.is_empty() && mesh::agrees(&model.mesh, &scan));
-        let built = match parsed {
-            Some(model) => mesh::build(model.mesh, &scan.runs, scan.names.len() as u16, &mut scan.log)
-                .map_err(|error| error.to_string()),
-            None => Err("cannot be parsed: the parser lost some of it".into()),
-        };
-        match built {
+    } else if !scan.log.has_faults() {
+        match mesh::build(&mut scan) {
             Ok(mesh) => model = Some(Model { mesh: Arc::new(mesh), materials: materials.of_slots(&mut scan) }),
-            Err(message) => faults.push(Fault::of_file(path, message)),
+            Err(error) => faults.push(Fault::of_file(path, error.to_string())),
         }
     }
     let (mut all_faults, mut notices) = scan.log.into_parts();
@@ -122,7 +112,7 @@ struct Materials {
     libraries: Vec<Library>,
     /// Library and entry of each name.
     by_name: BTreeMap<String, (usize, usize)>,
-    textures: BTreeMap<PathBuf, Option<Arc<Image>>>,
+    textures: BTreeMap<PathBuf, Result<Arc<Image>, Fault>>,
 }
 
 impl Materials {
@@ -163,9 +153,22 @@ impl Materials {
         self.libraries.push(library);
     }
 
+    /// Decodes the textures of these materials, in parallel.
+    fn decode(&mut self, names: &[(String, Position)]) {
+        let paths = names.iter().filter_map(|(name, _)| {
+            let &(library, entry) = self.by_name.get(name)?;
+            let library = &self.libraries[library];
+            library.texture(&library.entries[entry])
+        });
+        let paths: BTreeSet<PathBuf> = paths.collect();
+        let read = |path: PathBuf| (path.clone(), image::read(&path).map(Arc::new));
+        self.textures = paths.into_par_iter().map(read).collect::<Vec<_>>().into_iter().collect();
+    }
+
     /// The materials that faces use, and a plain one for the faces without if others have one.
     fn of_slots(&mut self, scan: &mut Scan) -> Vec<ModelMaterial> {
         let names = std::mem::take(&mut scan.names);
+        self.decode(&names);
         let some_have_none = scan.runs.iter().any(|run| run.material.is_none());
         let mut materials: Vec<_> = names.iter().map(|(name, at)| self.named(name, *at, &mut scan.log)).collect();
         if some_have_none && !materials.is_empty() {
@@ -188,21 +191,22 @@ impl Materials {
             }
             return ModelMaterial::named(name);
         };
+        let texture = self.libraries[library].texture(&self.libraries[library].entries[entry]);
         let Library { entries, log } = &mut self.libraries[library];
         let entry = &entries[entry];
         let mut material = ModelMaterial::of(entry, log);
-        if let Some(texture) = &entry.parsed.diffuse_texture {
-            let folder = log.file().parent().unwrap_or(Path::new(""));
-            let path = file::resolve(folder, texture);
-            let read = || match image::read(&path) {
-                Ok(image) => Some(Arc::new(image)),
-                Err(fault) => {
+        if let Some(path) = texture {
+            // A fault is noticed once, where the texture is first used.
+            let image = self.textures.get_mut(&path).and_then(|read| match read {
+                Ok(image) => Some(image.clone()),
+                Err(fault) if !fault.message.is_empty() => {
                     log.notice(Some(entry.at), &format!("texture {fault}"));
+                    fault.message.clear();
                     None
                 }
-            };
-            let image = self.textures.entry(path.clone()).or_insert_with(read);
-            material.texture = image.clone().map(|image| (path.display().to_string(), image));
+                Err(_) => None,
+            });
+            material.texture = image.map(|image| (path.display().to_string(), image));
         }
         material
     }

@@ -9,7 +9,7 @@ use super::log::Log;
 use super::word::{Word, integer, name, number, quoted, words};
 use crate::load::fault::{Fault, Position};
 use crate::load::file;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Largest library read: many times what any needs, as a short line of it may take much memory.
 const MOST_BYTES: u64 = 16 << 20;
@@ -25,6 +25,14 @@ pub(super) struct Entry {
 pub(super) struct Library {
     pub(super) entries: Vec<Entry>,
     pub(super) log: Log,
+}
+
+impl Library {
+    /// The path of a material's texture, if it has one.
+    pub(super) fn texture(&self, of: &Entry) -> Option<PathBuf> {
+        let folder = self.log.file().parent().unwrap_or(Path::new(""));
+        of.parsed.diffuse_texture.as_ref().map(|texture| file::resolve(folder, texture))
+    }
 }
 
 /// Reads a library; one with faults has no entries.

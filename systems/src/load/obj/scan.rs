@@ -1,19 +1,18 @@
-//! The check of an OBJ file's statements: every number, count and index, with its place.
-//!
-//! What passes on to the parser are the statements `v` (three numbers), `vt` (two), `vn` and `f`, the last with absolute
-//! indices and corners that either all or none have a texture coordinate, and likewise a normal. What the parser is not
-//! shown is kept here: materials, and which faces have which attribute.
+//! The reading of an OBJ file's statements: every number, count and index is checked, with its place, and kept.
 
-use super::feed::Check;
-use super::lines::Line;
+use super::lines::{Line, Lines};
 use super::log::Log;
 use super::word::{Word, integer, name, number, quoted, words};
 use crate::load::fault::Position;
 use std::collections::BTreeMap;
+use std::io::{self, BufRead};
 use std::path::Path;
 
 /// What the indices of a corner refer to, in the order they are written.
 const REFERRED: [&str; 3] = ["vertex", "texture coordinate", "normal"];
+
+/// The index of what a corner does not have.
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Faces in a row with the same material and attributes.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -33,6 +32,11 @@ pub(super) struct Has {
     pub(super) normals: bool,
 }
 
+impl Has {
+    /// Neither.
+    pub(super) const NONE: Self = Self { uvs: false, normals: false };
+}
+
 /// An index that points ahead: it is right only if the file goes on long enough.
 struct Ahead {
     at: Position,
@@ -49,14 +53,21 @@ enum Current {
     New(String, Position),
 }
 
-/// What a file holds beside what the parser keeps.
+/// What a file holds. What stands beside a fault is not to be used.
 pub(super) struct Scan {
     pub(super) log: Log,
-    /// Vertices, texture coordinates and normals.
-    pub(super) counts: [usize; 3],
+    pub(super) positions: Vec<[f32; 3]>,
+    pub(super) uvs: Vec<[f32; 2]>,
+    pub(super) normals: Vec<[f32; 3]>,
+    /// Of the corners of all faces, one after the other, counted from 0.
+    pub(super) vertices: Vec<u32>,
+    /// Likewise; empty if no corner before has one, else with [`NONE`] where one has none.
+    pub(super) corner_uvs: Vec<u32>,
+    /// Likewise.
+    pub(super) corner_normals: Vec<u32>,
+    /// Faces that are no triangles, by number, with their corners.
+    pub(super) polygons: Vec<(usize, usize)>,
     pub(super) faces: usize,
-    /// Corners of all faces.
-    pub(super) corners: usize,
     pub(super) runs: Vec<Run>,
     /// Materials in order of their first use.
     pub(super) names: Vec<(String, Position)>,
@@ -65,16 +76,21 @@ pub(super) struct Scan {
     ahead: Vec<Ahead>,
     material: Current,
     slots: BTreeMap<String, u16>,
-    face: Vec<[Option<usize>; 3]>,
+    face: Vec<[u32; 3]>,
 }
 
 impl Scan {
     pub(super) fn new(file: &Path) -> Self {
         Self {
             log: Log::new(file),
-            counts: [0; 3],
+            positions: vec![],
+            uvs: vec![],
+            normals: vec![],
+            vertices: vec![],
+            corner_uvs: vec![],
+            corner_normals: vec![],
+            polygons: vec![],
             faces: 0,
-            corners: 0,
             runs: vec![],
             names: vec![],
             libraries: vec![],
@@ -85,36 +101,49 @@ impl Scan {
         }
     }
 
-    /// Checks a statement of numbers and passes those on that the parser reads, absent ones as zero.
-    fn numbers(&mut self, line: &Line<'_>, keyword: Word<'_>, kind: Numbers, out: &mut Vec<u8>) {
-        self.counts[kind.counted] += 1;
+    /// Reads all statements of a file.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub(super) fn read(&mut self, reader: impl BufRead) -> io::Result<()> {
+        let mut lines = Lines::new(reader);
+        while let Some(line) = lines.next()? {
+            self.line(&line);
+        }
+        self.finish();
+        Ok(())
+    }
+
+    /// How many vertices, texture coordinates or normals stand above.
+    fn count(&self, kind: usize) -> usize {
+        [self.positions.len(), self.uvs.len(), self.normals.len()][kind]
+    }
+
+    /// The numbers of a statement, absent ones zero; those of a faulty one mean nothing.
+    fn numbers<const N: usize>(&mut self, line: &Line<'_>, keyword: Word<'_>, rule: &Numbers) -> [f32; N] {
+        let mut numbers = [0.0; N];
         let mut count = 0;
-        out.extend_from_slice(kind.keyword);
         for word in words(line).skip(1) {
-            if let Err(message) = number(word.text) {
-                return self.log.fault(line.position(word.offset), message);
-            }
-            if count < kind.kept {
-                out.push(b' ');
-                out.extend_from_slice(word.text);
+            match number(word.text) {
+                Ok(value) if count < N => numbers[count] = value,
+                Ok(_) => {}
+                Err(message) => {
+                    self.log.fault(line.position(word.offset), message);
+                    return numbers;
+                }
             }
             count += 1;
         }
-        if !kind.allowed.contains(&count) {
-            let message = format!("{}, this has {count}", kind.rule);
-            return self.log.fault(line.position(keyword.offset), message);
-        }
-        for _ in count..kind.kept {
-            out.extend_from_slice(b" 0");
-        }
-        out.push(b'\n');
-        if kind.counted == 0 && count > 3 {
+        if !rule.allowed.contains(&count) {
+            self.log.fault(line.position(keyword.offset), format!("{}, this has {count}", rule.text));
+        } else if N == 3 && count > 3 {
             let what = if count == 4 { "weight, which only curves use," } else { "colour" };
             self.log.notice(Some(line.position(keyword.offset)), &format!("a vertex with a {what} is read without"));
         }
+        numbers
     }
 
-    fn face(&mut self, line: &Line<'_>, keyword: Word<'_>, out: &mut Vec<u8>) {
+    fn face(&mut self, line: &Line<'_>, keyword: Word<'_>) {
         self.face.clear();
         for word in words(line).skip(1) {
             match self.corner(line, word) {
@@ -128,43 +157,37 @@ impl Scan {
             return self.log.fault(line.position(keyword.offset), message);
         }
         let [uvs, normals] = [1, 2].map(|kind| {
-            let count = self.face.iter().filter(|corner| corner[kind].is_some()).count();
+            let count = self.face.iter().filter(|corner| corner[kind] != NONE).count();
             if count > 0 && count < corners {
                 let text = format!("a face with a {} at only some of its corners: it is left without", REFERRED[kind]);
                 self.log.notice(Some(line.position(keyword.offset)), &text);
             }
             count == corners
         });
-        out.push(b'f');
-        for &[vertex, uv, normal] in &self.face {
-            let (uv, normal) = (uv.filter(|_| uvs), normal.filter(|_| normals));
-            out.push(b' ');
-            push_number(out, vertex.unwrap_or_default());
-            if uv.is_some() || normal.is_some() {
-                out.push(b'/');
-            }
-            if let Some(uv) = uv {
-                push_number(out, uv);
-            }
-            if let Some(normal) = normal {
-                out.push(b'/');
-                push_number(out, normal);
+        let before = self.vertices.len();
+        self.vertices.extend(self.face.iter().map(|corner| corner[0]));
+        for (has, kind, list) in [(uvs, 1, &mut self.corner_uvs), (normals, 2, &mut self.corner_normals)] {
+            if has {
+                list.resize(before, NONE);
+                list.extend(self.face.iter().map(|corner| corner[kind]));
             }
         }
-        out.push(b'\n');
+        if corners != 3 {
+            self.polygons.push((self.faces, corners));
+        }
         self.count_face(Has { uvs, normals });
     }
 
-    /// The absolute indices of a corner; a fault and nothing if one is wrong.
-    fn corner(&mut self, line: &Line<'_>, word: Word<'_>) -> Option<[Option<usize>; 3]> {
-        let mut corner = [None; 3];
+    /// The indices of a corner, counted from 0, [`NONE`] where it has none; a fault and nothing if one is wrong.
+    fn corner(&mut self, line: &Line<'_>, word: Word<'_>) -> Option<[u32; 3]> {
+        let mut corner = [NONE; 3];
         let mut offset = word.offset;
         for (kind, part) in word.text.split(|&b| b == b'/').enumerate() {
             let index = match (integer(part), corner.get(kind)) {
                 (_, None) => Err(format!("{} has more than 3 indices", quoted(word.text))),
-                (None, _) if part.is_empty() && kind > 0 => Ok(None),
+                (None, _) if part.is_empty() && kind > 0 => Ok(NONE),
                 (None, _) => Err(format!("{} is not the index of a {}", quoted(part), REFERRED[kind])),
-                (Some(index), _) => self.absolute(line, offset, kind, index).map(Some),
+                (Some(index), _) => self.absolute(line, offset, kind, index),
             };
             match index {
                 Ok(index) => corner[kind] = index,
@@ -178,9 +201,9 @@ impl Scan {
         Some(corner)
     }
 
-    /// An index counted from 1. Those that point ahead are noted down for the end of the file.
-    fn absolute(&mut self, line: &Line<'_>, offset: usize, kind: usize, index: i64) -> Result<usize, String> {
-        let count = self.counts[kind];
+    /// An index counted from 0. Those that point ahead are noted down for the end of the file.
+    fn absolute(&mut self, line: &Line<'_>, offset: usize, kind: usize, index: i64) -> Result<u32, String> {
+        let count = self.count(kind);
         let what = REFERRED[kind];
         let magnitude = usize::try_from(index.unsigned_abs()).unwrap_or(usize::MAX);
         match index {
@@ -189,9 +212,10 @@ impl Scan {
                 if magnitude > count {
                     self.ahead.push(Ahead { at: line.position(offset), kind, index: magnitude });
                 }
-                Ok(magnitude)
+                // An index beyond 32 bits is beyond any count: the end of the file will tell.
+                Ok(u32::try_from(magnitude - 1).unwrap_or(NONE))
             }
-            _ if magnitude <= count => Ok(count - magnitude + 1),
+            _ if magnitude <= count => Ok((count - magnitude) as u32),
             _ => Err(format!("there is no {what} {index}: {count} stand above")),
         }
     }
@@ -218,49 +242,28 @@ impl Scan {
             self.runs.push(Run { first: self.faces, material, has });
         }
         self.faces += 1;
-        self.corners += self.face.len();
     }
-}
 
-/// How a statement of numbers is written.
-struct Numbers {
-    keyword: &'static [u8],
-    /// Position in [`Scan::counts`].
-    counted: usize,
-    allowed: &'static [usize],
-    /// How many of them the parser reads.
-    kept: usize,
-    rule: &'static str,
-}
-
-const VERTEX: Numbers = Numbers {
-    keyword: b"v",
-    counted: 0,
-    allowed: &[3, 4, 6, 7],
-    kept: 3,
-    rule: "a vertex has 3 numbers, 4 with a weight, 6 or 7 with a colour",
-};
-const UV: Numbers = Numbers {
-    keyword: b"vt",
-    counted: 1,
-    allowed: &[1, 2, 3],
-    kept: 2,
-    rule: "a texture coordinate has 1 to 3 numbers",
-};
-const NORMAL: Numbers = Numbers { keyword: b"vn", counted: 2, allowed: &[3], kept: 3, rule: "a normal has 3 numbers" };
-
-impl Check for Scan {
-    fn line(&mut self, line: &Line<'_>, out: &mut Vec<u8>) {
+    fn line(&mut self, line: &Line<'_>) {
         if !line.text.is_ascii() && std::str::from_utf8(line.text).is_err() {
             self.log.notice(Some(line.position(0)), "a line with bytes that are not UTF-8, each read as `\u{fffd}`");
         }
         let Some(keyword) = words(line).next() else { return };
         let at = || line.position(keyword.offset);
         match keyword.text {
-            b"v" => self.numbers(line, keyword, VERTEX, out),
-            b"vt" => self.numbers(line, keyword, UV, out),
-            b"vn" => self.numbers(line, keyword, NORMAL, out),
-            b"f" => self.face(line, keyword, out),
+            b"v" => {
+                let position = self.numbers(line, keyword, &VERTEX);
+                self.positions.push(position);
+            }
+            b"vt" => {
+                let uv = self.numbers(line, keyword, &UV);
+                self.uvs.push(uv);
+            }
+            b"vn" => {
+                let normal = self.numbers(line, keyword, &NORMAL);
+                self.normals.push(normal);
+            }
+            b"f" => self.face(line, keyword),
             b"usemtl" => {
                 let name = name(line, keyword);
                 let known = self.slots.get(&name).copied();
@@ -277,8 +280,8 @@ impl Check for Scan {
     }
 
     fn finish(&mut self) {
-        for Ahead { at, kind, index } in self.ahead.drain(..) {
-            let (count, what) = (self.counts[kind], REFERRED[kind]);
+        for Ahead { at, kind, index } in std::mem::take(&mut self.ahead) {
+            let (count, what) = (self.count(kind), REFERRED[kind]);
             if kind > 0 && count == 0 {
                 // Exporters leave out what was not asked for, but not always the references to it.
                 self.log.notice(Some(at), &format!("the file has no {what}s: a corner's index of one is passed over"));
@@ -287,11 +290,18 @@ impl Check for Scan {
             }
         }
     }
-
-    fn report(&mut self) -> &mut Log {
-        &mut self.log
-    }
 }
+
+/// How many numbers a statement has.
+struct Numbers {
+    allowed: &'static [usize],
+    text: &'static str,
+}
+
+const VERTEX: Numbers =
+    Numbers { allowed: &[3, 4, 6, 7], text: "a vertex has 3 numbers, 4 with a weight, 6 or 7 with a colour" };
+const UV: Numbers = Numbers { allowed: &[1, 2, 3], text: "a texture coordinate has 1 to 3 numbers" };
+const NORMAL: Numbers = Numbers { allowed: &[3], text: "a normal has 3 numbers" };
 
 /// Why a statement is passed over.
 fn reason(keyword: &[u8]) -> &'static str {
@@ -304,20 +314,4 @@ fn reason(keyword: &[u8]) -> &'static str {
         }
         _ => "unknown statement",
     }
-}
-
-/// Appends a number in decimal digits.
-fn push_number(out: &mut Vec<u8>, number: usize) {
-    let mut digits = [0; 20];
-    let mut start = digits.len();
-    let mut rest = number;
-    loop {
-        start -= 1;
-        digits[start] = b'0' + (rest % 10) as u8;
-        rest /= 10;
-        if rest == 0 {
-            break;
-        }
-    }
-    out.extend_from_slice(&digits[start..]);
 }

@@ -456,3 +456,44 @@ fn what_passes_the_check_never_fails_in_the_parser() {
     }
     assert!(accepted > 50 && refused > 50, "{accepted} accepted, {refused} refused");
 }
+
+#[test]
+fn faces_are_those_that_another_reader_finds() {
+    // Triangles and larger faces, with and without attributes, relative indices, comments, continued lines.
+    let mut text =
+        String::from("# numbers of every form\nv 0 0 0\nv 1.5e0 0 -0\nv .5 +1. 1e-40\nv -0.1 7 3\nv 1 1 0.3\n");
+    text += "vt 0.25 .5\nvt 1 0\nvt 0 1\nvn 0 0 1\nvn 0 1 0\n";
+    for i in 0..200 {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| (i * 7 + k * (1 + i % 2)) % 5 + 1);
+        text += &match i % 4 {
+            0 => format!("f {a} {b} {c}\n"),
+            1 => format!("f {a}/1/2 {b}/3/1 {c}/2/2 # {d}\n"),
+            2 => format!("f {}//-1 \\\n {b}//1 {c}//2\n", a - 6),
+            _ => format!("f {a}/1 {b}/2 {c}/3\n"),
+        };
+    }
+    let (model, _) = read(&text);
+    // What the other reader is known to handle: no comments behind faces, no continued lines, no attributes at some only.
+    let plain: String = text
+        .replace("\\\n", "")
+        .lines()
+        .map(|line| {
+            let words: Vec<&str> = line
+                .split_whitespace()
+                .take_while(|word| *word != "#")
+                .map(|word| word.split('/').next().unwrap_or(word))
+                .collect();
+            words.join(" ") + "\n"
+        })
+        .collect();
+    let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
+    let (models, _) =
+        tobj::load_obj_buf(&mut plain.as_bytes(), &tobj::LoadOptions::default(), no_library).expect("a model");
+    let other = &models[0].mesh;
+    let point = |i: u32| DVec3::from_array([0, 1, 2].map(|k| f64::from(other.positions[3 * i as usize + k])));
+    let theirs = other.indices.as_chunks::<3>().0.iter().map(|triangle| triangle.map(point));
+    let theirs: Vec<_> = theirs.filter(|[a, b, c]| (b - a).cross(c - a) != DVec3::ZERO).collect();
+    let ours: Vec<_> = (0..model.mesh.len()).map(|i| model.mesh.corners(i)).collect();
+    assert!(ours.len() > 100);
+    assert_eq!(ours, theirs);
+}
