@@ -19,7 +19,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// The error of the first turn.
+/// The error of the first turn, which has one ray to a pixel.
 const FIRST: f64 = 0.25;
 
 /// The error below which no turn goes.
@@ -35,7 +35,7 @@ pub struct Timed {
     pub frame: Frame,
     /// The scene with the settings that give the picture, but for what is better.
     pub snapshot: Snapshot,
-    /// The error that is kept in the whole picture.
+    /// The error that is kept in the whole picture; after one turn only by the rays that were cut.
     pub error: f64,
     /// The smaller error that is kept in a part of it, and the share of that part.
     pub better: Option<(f64, f64)>,
@@ -62,7 +62,8 @@ pub fn render_until(
     let start = Instant::now();
     let mut snapshot = snapshot.clone();
     let settings = &mut snapshot.settings;
-    (settings.antialias, settings.subdivisions, settings.error) = (Antialias::Adaptive, MAX_SUBDIVISIONS, FIRST);
+    // The cheapest picture there is.
+    (settings.antialias, settings.subdivisions, settings.error) = (Antialias::Off, MAX_SUBDIVISIONS, FIRST);
     let on_tile = |_: &Tile, progress: Progress| told(progress);
     let options = Options { region: Some(region), stop: stop.clone(), on_tile: Some(&on_tile), ..Options::default() };
     let frame = render(&snapshot, &options);
@@ -83,8 +84,8 @@ pub fn render_until(
             break;
         }
         // While there is much time the error falls fast, so that little of it goes into turns that are not seen.
-        let error = (timed.error / if left > longest * 6 { 4.0 } else { 2.0 }).max(LEAST);
-        snapshot.settings.error = error;
+        let error = (timed.error / if left > longest * 12 { 4.0 } else { 2.0 }).max(LEAST);
+        (snapshot.settings.antialias, snapshot.settings.error) = (Antialias::Adaptive, error);
         let turn = Instant::now();
         let turn_stop = Stop::new();
         let improved = AtomicU64::new(0);
@@ -106,6 +107,7 @@ pub fn render_until(
             break;
         }
         (timed.turns, timed.error, timed.exhausted) = (timed.turns + 1, error, error <= LEAST);
+        timed.snapshot = snapshot.clone();
         longest = longest.max(turn.elapsed());
     }
     timed.frame.picture = picture.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -93,7 +93,8 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
 /// What became of a time that was given.
 fn told_of_time(time: f64, taken: f64, timed: &Timed) -> String {
     let in_255ths = |error: f64| format!("{:.2}/255", 255.0 * error);
-    let mut told = format!("{taken:.2} s of {time} s; error {}", in_255ths(timed.error));
+    let kept = if timed.turns > 1 { format!("error {}", in_255ths(timed.error)) } else { "one ray to a pixel".into() };
+    let mut told = format!("{taken:.2} s of {time} s; {kept}");
     if timed.turns == 0 {
         return format!("{taken:.2} s of {time} s; stopped before the first turn was done");
     }

@@ -88,7 +88,7 @@ speed    {:.2} million rays a second",
             self.rays_per_second / 1e6,
         )?;
         if let Some(time) = &self.time {
-            write!(f, "\ntime     {time}")?;
+            write!(f, "\nlimit    {time}")?;
         }
         if c.cut + c.too_deep > 0 {
             let [cut, too_deep] = [c.cut, c.too_deep].map(grouped);

@@ -1,10 +1,12 @@
 //! Studies: what is measured, one file each.
 
+mod accelerators;
 mod antialias;
 mod area;
 mod depth;
 mod error;
 mod lights;
+mod methods;
 mod scene;
 mod settings;
 mod textures;
@@ -49,9 +51,19 @@ pub const ALL: &[Study] = &[
     Study { name: "lights", about: "samples of lights with an area", kind: Kind::OfScene(lights::study) },
     Study { name: "depth", about: "depth of reflections and cut-off", kind: Kind::OfScene(depth::study) },
     Study { name: "textures", about: "filters of textures", kind: Kind::OfScene(textures::study) },
+    Study {
+        name: "methods",
+        about: "tests of triangles and spheres, and their precision",
+        kind: Kind::OfScene(methods::study),
+    },
     Study { name: "threads", about: "time against threads", kind: Kind::OfScene(threads::study) },
     Study { name: "triangles", about: "time against the number of triangles", kind: Kind::Ready(triangles::study) },
     Study { name: "area", about: "time against the area on the screen", kind: Kind::Ready(area::study) },
+    Study {
+        name: "accelerators",
+        about: "no tree, tree of spheres and tree of boxes",
+        kind: Kind::Ready(accelerators::study),
+    },
 ];
 
 /// What a study found.
