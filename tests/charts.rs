@@ -52,6 +52,29 @@ fn a_chart_comes_with_its_numbers_and_a_page_that_needs_no_server() {
 }
 
 #[test]
+fn several_scenes_share_a_page_and_their_errors_keep_the_bound() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenes = ["tests/golden/optics/mirror-and-glass.ron", "tests/golden/texture/checkers.ron"].map(scene);
+    let args =
+        ["chart", &scenes[0], &scenes[1], "-o", "charts", "--quick", "--width", "12", "--study", "error", "lights"];
+    let (ok, out, err) = snell(&args, folder.path());
+    assert!(ok && err.contains("left out: no light has an area"), "{out}{err}");
+    let json = fs::read_to_string(folder.path().join("charts/charts.json")).expect("numbers");
+    let json: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let studies = json["studies"].as_array().expect("studies");
+    let names: Vec<_> = studies.iter().filter_map(|study| study["name"].as_str()).collect();
+    assert_eq!(names, ["mirror-and-glass-error", "checkers-error", "errors"]);
+    let rows = studies[2]["table"]["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 4);
+    for row in rows {
+        // Of the scene, the error, rays three times, then what cuts cost and the bound, in 255ths.
+        let (cost, bound) = (row[5].as_f64().expect("a number"), row[6].as_f64().expect("a number"));
+        assert!(cost <= bound + 1e-3, "{row}");
+    }
+    assert!(fs::read_to_string(folder.path().join("charts/charts.md")).is_ok_and(|text| text.contains("| scene |")));
+}
+
+#[test]
 fn a_study_that_a_scene_has_nothing_for_is_told() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = scene("tests/golden/shape/triangles.ron");

@@ -5,6 +5,7 @@ use crate::measure::{Candidate, Effort};
 use bevy_ecs::prelude::*;
 use snell_components::{
     light::DiskLight,
+    name::Name,
     settings::{Antialias, Settings},
     texture::{Checker, ImageTexture},
 };
@@ -25,11 +26,16 @@ impl Scene {
         Self { name: name.into(), renderer }
     }
 
-    /// The renderer, without the scene, for another one.
+    /// The renderer, without what the scene named, for another scene.
     #[must_use]
     pub fn cleared(self) -> Renderer {
         let mut renderer = self.renderer;
-        renderer.world.clear_entities();
+        let world = &mut renderer.world;
+        let named: Vec<Entity> = world.query_filtered::<Entity, With<Name>>().iter(world).collect();
+        for entity in named {
+            // It may have gone with its parent.
+            let _ = world.try_despawn(entity);
+        }
         *renderer.settings() = Settings::default();
         renderer
     }
