@@ -88,7 +88,9 @@ impl<P: Primitive> Case<P> {
     /// A point in the bounds, or somewhat outside.
     pub(super) fn somewhere(&self, key: Key) -> DVec3 {
         let (a, b) = (key.sample(0), key.sample(1));
-        let reach = self.bounds.map_or(DVec3::splat(self.size), |bounds| 0.5 * (bounds.max - bounds.min));
+        // Not only within a flat shape's own plane.
+        let least = DVec3::splat(0.05 * self.size);
+        let reach = self.bounds.map_or(DVec3::splat(self.size), |bounds| (0.5 * (bounds.max - bounds.min)).max(least));
         self.center + reach * 1.05 * (DVec3::new(a.x, a.y, b.x) * 2.0 - 1.0)
     }
 

@@ -1,5 +1,5 @@
-//! The whole of Snell's command line, with one more shape.
+//! The whole of Snell's command line, with what this crate adds.
 
 fn main() -> std::process::ExitCode {
-    snell::cli::run(snell::Renderer::new().with_primitive::<outside::Torus>(), std::env::args_os())
+    snell::cli::run(outside::renderer(), std::env::args_os())
 }

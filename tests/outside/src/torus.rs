@@ -1,36 +1,23 @@
 //! `Torus(major: 1, minor: 0.3)`: a ring about Oy.
 
-use bevy_ecs::component::Component;
-use snell::prelude::*;
+use snell::{components::math, prelude::*};
 
 #[derive(Component, Clone, Default)]
 pub struct Torus {
-    major: f64,
-    minor: f64,
+    pub major: f64,
+    pub minor: f64,
 }
 
 impl Describe for Torus {
     const TAG: &'static str = "Torus";
 
     fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("major", Value::Number(&mut self.major), Spec::positive("radius of the ring").required());
-        fields.field("minor", Value::Number(&mut self.minor), Spec::positive("radius of the tube").required());
+        fields.field("major", Value::Number(&mut self.major), Spec::within(1e-9, 1e9, "of the ring").required());
+        fields.field("minor", Value::Number(&mut self.minor), Spec::within(1e-9, 1e9, "of the tube").required());
     }
-}
-
-#[derive(Clone)]
-pub struct PackedTorus {
-    torus: Torus,
-    object_from_world: DAffine3,
-    world_from_object: DAffine3,
 }
 
 impl Torus {
-    /// A ring with two radii, object units.
-    pub fn ring(major: f64, minor: f64) -> Self {
-        Self { major, minor }
-    }
-
     /// Distance to the tube, object units.
     fn distance(&self, p: DVec3) -> f64 {
         let ring = (p.x * p.x + p.z * p.z).sqrt() - self.major;
@@ -38,18 +25,24 @@ impl Torus {
     }
 }
 
-impl Primitive for Torus {
-    type Packed = PackedTorus;
+#[derive(Clone)]
+pub struct Packed {
+    torus: Torus,
+    object_from_world: DAffine3,
+    world_from_object: DAffine3,
+}
 
-    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedTorus), Degenerate> {
-        let reach = DVec3::new(self.major + self.minor, self.minor, self.major + self.minor);
+impl Primitive for Torus {
+    type Packed = Packed;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, Packed), Degenerate> {
+        let reach = DVec3::new(self.major + self.minor, self.minor, self.major + self.minor) * (1.0 + 1e-9);
         let bounds = Bounds { min: -reach, max: reach }.transformed(world_from_object);
-        let object_from_world = world_from_object.inverse();
-        let packed = PackedTorus { torus: self.clone(), object_from_world, world_from_object: *world_from_object };
-        Ok((Extent::Bounded(bounds), packed))
+        let (object_from_world, world_from_object) = (world_from_object.inverse(), *world_from_object);
+        Ok((Extent::Bounded(bounds), Packed { torus: self.clone(), object_from_world, world_from_object }))
     }
 
-    fn hit(packed: &PackedTorus, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+    fn hit(packed: &Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
         cost.primitives += 1;
         let (torus, local) = (&packed.torus, ray.transformed(&packed.object_from_world));
         let length = local.direction.length();
@@ -73,13 +66,14 @@ impl Primitive for Torus {
         None
     }
 
-    fn surface(packed: &PackedTorus, ray: &Ray, hit: Hit) -> Surface {
+    fn surface(packed: &Packed, ray: &Ray, hit: Hit) -> Surface {
         let local = packed.object_from_world.transform_point3(ray.at(hit.t));
         let ring = DVec3::new(local.x, 0.0, local.z).normalize_or(DVec3::X) * packed.torus.major;
         let outward = (local - ring).normalize_or(DVec3::Y);
         let point = packed.world_from_object.transform_point3(ring + outward * packed.torus.minor);
         let normal = (packed.object_from_world.matrix3.transpose() * outward).normalize_or(DVec3::Y);
+        let around = math::atan2(local.z, local.x) / core::f64::consts::TAU;
         let error = Surface::rounding(packed.world_from_object.transform_vector3(ring).length() * 2.0);
-        Surface { point, normal, shading_normal: normal, uv: DVec2::ZERO, slot: 0, error }
+        Surface { point, normal, shading_normal: normal, uv: DVec2::new(around, 0.0), slot: 0, error }
     }
 }

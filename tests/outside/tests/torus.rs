@@ -45,14 +45,17 @@ fn its_fields_are_checked_like_those_of_the_built_in_shapes() {
     assert!(misspelt.contains("torus.ron:8:29") && misspelt.contains("did you mean `minor`"), "{misspelt}");
 
     let negative = faults("minor: 0.35", "minor: -0.35");
-    assert!(negative.contains("above 0"), "{negative}");
+    assert!(negative.contains("from 0.000000001"), "{negative}");
+    let added = faults("minor: 0.35", "minor: 0.35, colour: 3");
+    assert!(added.contains("torus.ron:8:42") && added.contains("`colour`"), "{added}");
     let tag = faults("Torus(", "Tours(");
     assert!(tag.contains("did you mean `Torus`"), "{tag}");
 }
 
 #[test]
 fn no_ray_aimed_at_its_surface_from_inside_gets_out() {
-    let (_, packed) = Torus::ring(1.0, 0.35).pack(&DAffine3::from_scale(DVec3::new(2.0, 1.0, 0.5))).expect("a torus");
+    let (_, packed) =
+        Torus { major: 1.0, minor: 0.35 }.pack(&DAffine3::from_scale(DVec3::new(2.0, 1.0, 0.5))).expect("a torus");
     for i in 0..20_000 {
         let turn = f64::from(i) * 2.399_963;
         let height = f64::from(i % 199) / 99.0 - 1.0;
