@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The tree of rays of the pixel adds up to it.
     assert_eq!(why(&snapshot, 4, 4).sum().as_vec3().to_array(), middle);
     // The same picture, to the last bit, with one thread and without the trees.
-    let plain = Options { threads: Some(1), accelerator: Accelerator::BruteForce, ..Options::default() };
+    let plain = Options { threads: Some(1), methods: Methods::BRUTE_FORCE, ..Options::default() };
     assert_eq!(render(&snapshot, &plain).picture.hash(), picture.hash());
     println!("{}", picture.hash());
     Ok(())
