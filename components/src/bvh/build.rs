@@ -26,9 +26,22 @@ impl Bvh {
     /// With more than [`MAX_LEN`] boxes.
     #[must_use]
     pub fn build(boxes: impl ExactSizeIterator<Item = Box32>, leaf: usize) -> Self {
-        assert!(boxes.len() <= MAX_LEN, "a tree holds at most {MAX_LEN} things");
+        Self::over(boxes.enumerate().map(|(i, bounds)| Item::new(&bounds, i)).collect(), leaf)
+    }
+
+    /// The same of `len` boxes, which are made in parallel if they are many.
+    ///
+    /// # Panics
+    /// With more than [`MAX_LEN`] boxes.
+    #[must_use]
+    pub fn build_with(len: usize, bounds: impl Fn(usize) -> Box32 + Sync, leaf: usize) -> Self {
+        let item = |i| Item::new(&bounds(i), i);
+        Self::over((0..len).into_par_iter().with_min_len(PARALLEL).map(item).collect(), leaf)
+    }
+
+    fn over(mut items: Vec<Item>, leaf: usize) -> Self {
+        assert!(items.len() <= MAX_LEN, "a tree holds at most {MAX_LEN} things");
         let leaf = leaf.clamp(1, MAX_LEAF);
-        let mut items: Vec<Item> = boxes.enumerate().map(|(i, bounds)| Item::new(&bounds, i)).collect();
         let mut nodes = vec![];
         if !items.is_empty() {
             let whole = Span { first: 0, len: items.len(), bounds: bounds_of(&items) };
@@ -278,13 +291,18 @@ mod tests {
         pool.install(|| Bvh::build(boxes.iter().copied(), leaf))
     }
 
+    fn build_with(boxes: &[Box32], leaf: usize, threads: usize) -> Bvh {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads");
+        pool.install(|| Bvh::build_with(boxes.len(), |i| boxes[i], leaf))
+    }
+
     #[test]
     fn the_tree_is_the_same_for_any_number_of_threads() {
         for count in [PARALLEL - 1, 3 * PARALLEL, 3 * LARGE + 5] {
             let boxes = boxes(count);
             let alone = build(&boxes, 4, 1);
             for threads in [2, 5] {
-                let together = build(&boxes, 4, threads);
+                let together = build_with(&boxes, 4, threads);
                 assert_eq!(alone.order, together.order);
                 assert_eq!(format!("{:?}", alone.nodes), format!("{:?}", together.nodes));
             }

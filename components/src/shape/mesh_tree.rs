@@ -11,6 +11,7 @@ use crate::{
     space::{BoundingSphere, Bounds, Ray},
 };
 use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
 
 /// A tree, and the triangles in the order of its leaves: four in a block.
 #[derive(Debug)]
@@ -27,14 +28,14 @@ pub(super) struct MeshTree {
 
 impl MeshTree {
     /// Builds the tree over `len` triangles.
-    pub(super) fn build(len: usize, corners: impl Fn(u32) -> [[f32; 3]; 3]) -> Self {
-        let tree = Bvh::build((0..len).map(|i| Box32::of_triangle(&corners(i as u32))), BLOCK);
+    pub(super) fn build(len: usize, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Self {
+        let tree = Bvh::build_with(len, |i| Box32::of_triangle(&corners(i as u32)), BLOCK);
         let tree = Blocks::new(tree);
         let block = |triangles: &[u32; BLOCK]| {
             let triangles = triangles.map(&corners);
             Block([0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| triangles.map(|triangle| triangle[vertex][axis]))))
         };
-        let blocks = tree.order().iter().map(block).collect();
+        let blocks = tree.order().par_iter().with_min_len(1024).map(block).collect();
         let mut places = vec![0; len];
         for (i, &triangle) in tree.order().as_flattened().iter().enumerate() {
             places[triangle as usize] = i as u32;
