@@ -41,7 +41,8 @@ impl MeshTree {
             places[triangle as usize] = i as u32;
         }
         let all = || (0..len).flat_map(|i| corners(i as u32)).map(point);
-        let bounds = Bounds::of_points(all());
+        // Vertices are `f32` as the boxes are, so these are the exact bounds.
+        let bounds = tree.top_boxes().fold(Bounds::EMPTY, Bounds::union);
         let sphere = BoundingSphere::about(bounds.center(), all());
         let magnitude = bounds.min.abs().max(bounds.max.abs()).max_element();
         Self { tree, blocks, places, sphere, magnitude }
