@@ -5,7 +5,7 @@
 use super::shared::shared;
 use crate::{
     bvh::{Box32, Bvh},
-    describe::{Describe, FieldVisitor, Spec, Value},
+    describe::{self, Describe, FieldVisitor, Spec, Value},
     math,
     method::{Accelerator, Methods},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
@@ -33,6 +33,9 @@ const CHILDREN: [(f64, f64); 9] = [
 /// Deepest flake: 597 871 balls.
 const MAX_DEPTH: u32 = 6;
 
+/// Largest ball: the boxes of a tree are in single precision.
+const MAX_RADIUS: f64 = 1e37;
+
 /// Most balls in one leaf of the tree.
 const LEAF: usize = 4;
 
@@ -55,7 +58,9 @@ impl Describe for SphereFlake {
     const TAG: &'static str = "SphereFlake";
 
     fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("radius", Value::Number(&mut self.radius), Spec::positive("of the largest ball, object units"));
+        let radius = Spec::positive("of the largest ball, object units");
+        let radius = Spec { range: describe::Range { max: MAX_RADIUS, ..radius.range }, ..radius };
+        fields.field("radius", Value::Number(&mut self.radius), radius);
         let depth = Spec::within(0.0, f64::from(MAX_DEPTH), "how many times balls carry smaller ones");
         fields.field("depth", Value::Integer(&mut self.depth), depth);
     }
@@ -137,6 +142,9 @@ impl Primitive for SphereFlake {
     fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, PackedSphereFlake), Degenerate> {
         if !(self.radius > 0.0 && self.radius.is_finite()) {
             return Err(Degenerate(format!("its radius is not a number above zero: {}", self.radius)));
+        }
+        if self.radius > MAX_RADIUS {
+            return Err(Degenerate(format!("its radius is more than {MAX_RADIUS:e}: {}", self.radius)));
         }
         if self.depth > MAX_DEPTH {
             return Err(Degenerate(format!("its depth is more than {MAX_DEPTH}: {}", self.depth)));
@@ -233,6 +241,13 @@ impl Search<'_> {
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
+
+    #[test]
+    fn a_flake_larger_than_single_precision_has_no_surface() {
+        for (radius, is) in [(1e37, true), (1e38, false), (1e150, false), (f64::INFINITY, false)] {
+            assert_eq!(SphereFlake { radius, depth: 1 }.pack(&DAffine3::IDENTITY).is_ok(), is, "{radius}");
+        }
+    }
 
     #[test]
     fn balls_touch_the_one_that_carries_them() {

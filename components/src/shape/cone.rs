@@ -99,6 +99,9 @@ impl PackedCone {
         let widest = if radius > top { radius } else { top };
         let bounds = Bounds { min: DVec3::new(-widest, 0.0, -widest), max: DVec3::new(widest, height, widest) };
         let bounds = bounds.transformed(world_from_object);
+        if !(bounds.min.is_finite() && bounds.max.is_finite() && (widest * widest).is_finite()) {
+            return Err(Degenerate("it is larger than numbers are".into()));
+        }
         let packed = Self {
             radius,
             height,
@@ -242,6 +245,13 @@ mod tests {
         assert_eq!(trace(&stump, DVec3::new(2.0, -5.0, 0.0), DVec3::Y), Some(Hit { t: 5.5, part: SIDE }));
         let pipe = packed(1.0, 1.0, 1.0, DAffine3::IDENTITY);
         assert_eq!(trace(&pipe, DVec3::new(1.0, 5.0, 0.0), DVec3::NEG_Y).map(|hit| hit.t), Some(4.0), "in the side");
+    }
+
+    #[test]
+    fn a_cone_larger_than_numbers_has_no_surface() {
+        let huge = Cone { radius: f64::MAX, top: 0.0, height: 1.0 };
+        assert!(huge.pack(&DAffine3::from_scale(DVec3::splat(3.0))).is_err());
+        assert!(Cone { radius: 1e38, ..huge }.pack(&DAffine3::IDENTITY).is_ok());
     }
 
     #[test]
