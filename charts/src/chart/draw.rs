@@ -131,9 +131,9 @@ where
             ((f64::from(left) + across).round() as i32, (f64::from(bottom) - up).round() as i32)
         };
         self.axes(chart, &x, &y)?;
-        for guide in &chart.guides {
+        for (guide, n) in chart.guides.iter().zip(0..) {
             let [a, b] = guide.ends.map(|(x, y)| at(x, y));
-            self.dashed(a, b)?;
+            self.dashed(n, a, b)?;
         }
         let places: Vec<Vec<(i32, i32)>> = chart
             .series
@@ -249,8 +249,8 @@ where
             self.marker(n, (left, y), 5, color, true)?;
             y += self.wrapped(&series.label, (left + 20, y))?;
         }
-        for guide in &chart.guides {
-            self.dashed((left - 11, y), (left + 11, y))?;
+        for (guide, n) in chart.guides.iter().zip(0..) {
+            self.dashed(n, (left - 11, y), (left + 11, y))?;
             y += self.wrapped(&guide.label, (left + 20, y))?;
         }
         if chart.smaller_is_better {
@@ -308,14 +308,16 @@ where
         Ok(())
     }
 
-    fn dashed(&self, a: (i32, i32), b: (i32, i32)) -> Result<(), Refused> {
+    /// The first guide has long dashes, the next ones dots.
+    fn dashed(&self, n: usize, a: (i32, i32), b: (i32, i32)) -> Result<(), Refused> {
+        let (step, share) = if n == 0 { (11.0, 0.7) } else { (6.0, 0.35) };
         let (dx, dy) = (f64::from(b.0 - a.0), f64::from(b.1 - a.1));
-        let dashes = ((dx * dx + dy * dy).sqrt() / 10.0).ceil().max(1.0);
+        let dashes = ((dx * dx + dy * dy).sqrt() / step).ceil().max(1.0);
         let at =
             |share: f64| ((f64::from(a.0) + dx * share).round() as i32, (f64::from(a.1) + dy * share).round() as i32);
         for n in 0..dashes as u32 {
             let start = f64::from(n) / dashes;
-            self.line(&[at(start), at(start + 0.6 / dashes)], GREY, 1)?;
+            self.line(&[at(start), at(start + share / dashes)], GREY, 1)?;
         }
         Ok(())
     }

@@ -39,6 +39,7 @@ pub(super) fn study(effort: Effort) -> Result<Found, Hindrance> {
     let mut times = ALL.map(|(label, _)| Series { label: label.into(), joined: true, ..Series::default() });
     let mut work = times.clone();
     let mut all_same = true;
+    let most = counts.last().copied().unwrap_or_default();
     for &count in &counts {
         let snapshot = field(count, Lie::Strewn, width)?;
         let expected = snell_systems::render::render(&snapshot, &Options::default()).picture.hash();
