@@ -130,7 +130,8 @@ pub struct Bvh {
 }
 
 impl Bvh {
-    /// Most levels of nodes.
+    /// More levels of nodes than any tree has: forty that split by area, below which every level halves the count, and
+    /// 2²⁷ things.
     pub(crate) const MAX_DEPTH: usize = 72;
 
     /// The things in leaf order, by their index among the boxes the tree was built from.

@@ -406,4 +406,21 @@ mod tests {
             assert_eq!(tree.leaves().map(|run| run.len()).sum::<usize>(), count);
         }
     }
+
+    #[test]
+    fn no_tree_is_deeper_than_a_walk_has_room_for() {
+        fn depth(tree: &Bvh, node: usize) -> usize {
+            let node = &tree.nodes[node];
+            let below = (0..WIDTH).filter(|&lane| node.holds(lane) && !node.child[lane].is_leaf());
+            1 + below.map(|lane| depth(tree, node.child[lane].0 as usize)).max().unwrap_or(0)
+        }
+        // Points that run into a corner: every split by area cuts off the few farthest.
+        let run = |ratio: f64| (0..20_000).map(move |i| math::pow(ratio, f64::from(i) * 0.05) as f32);
+        let mut deepest = 0;
+        for ratio in [0.9, 0.5, 0.1] {
+            let boxes: Vec<_> = run(ratio).map(|x| Box32 { min: [x; 3], max: [x; 3] }).collect();
+            deepest = deepest.max(depth(&Bvh::build(boxes.into_iter(), 1), 0));
+        }
+        assert!((20..=Bvh::MAX_DEPTH).contains(&deepest), "{deepest}");
+    }
 }
