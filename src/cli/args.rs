@@ -32,6 +32,7 @@ pub(super) enum Command {
     Repro(ReproArguments),
     Fmt(FmtArguments),
     Chart(ChartArguments),
+    Stability(StabilityArguments),
 }
 
 /// Render a scene to a PNG or OpenEXR file
@@ -161,6 +162,28 @@ fn studies() -> String {
     };
     let studies: Vec<_> = STUDIES.iter().map(line).collect();
     format!("Studies:\n{}\n\nExample:\n  snell chart scene.ron -o charts --quick", studies.join("\n"))
+}
+
+/// Show where the usual methods fail, and that Snell does not
+///
+/// Runs every case against its oracle with fixed seeds and prints the table.
+#[derive(Args, Debug)]
+#[command(after_help = "\
+Examples:
+  snell stability --case F01 --case F50      two cases, a hundred thousand tries a cell
+  snell stability --deep -o accuracy         all, ten million tries a cell; table, JSON and picture")]
+pub(super) struct StabilityArguments {
+    /// A hundred times as many tries
+    #[arg(long)]
+    pub(super) deep: bool,
+
+    /// Folder for stability.md, stability.json and stability.svg
+    #[arg(short, long, value_name = "DIR")]
+    pub(super) output: Option<PathBuf>,
+
+    /// Only the case of this number, such as F04; may be given again
+    #[arg(long, value_name = "ID")]
+    pub(super) case: Vec<String>,
 }
 
 /// How a scene is drawn.

@@ -27,6 +27,7 @@ mod machine;
 mod progress;
 mod render;
 mod repro;
+mod stability;
 mod stats;
 mod why;
 
@@ -60,6 +61,7 @@ fn run_with(mut renderer: Renderer, args: impl IntoIterator<Item = OsString>, co
         Ok(Arguments { command: Command::Diff(args) }) => diff::diff(&args, console),
         Ok(Arguments { command: Command::Fmt(args) }) => fmt::fmt(&args, console),
         Ok(Arguments { command: Command::Repro(args) }) => repro::repro(&mut renderer, &args, console),
+        Ok(Arguments { command: Command::Stability(args) }) => stability::stability(&args, console),
         Ok(Arguments { command: Command::Chart(args) }) => chart::chart(renderer, &args, console),
         // Help and version arrive here, too; nothing can be told of them if the terminal is gone.
         Err(answer) => {
