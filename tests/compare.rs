@@ -133,6 +133,19 @@ fn a_picture_is_drawn_again_from_what_its_file_tells() {
 }
 
 #[test]
+fn a_picture_of_raw_numbers_of_a_scene_placed_as_a_whole_is_drawn_again() {
+    let desk = Desk::new();
+    let settings =
+        "encoding: Raw, transform: [Rotate(axis: (1, 2, 3), degrees: 0.1), Scale(1.5)], transform_lights: false, ";
+    desk.put("raw.ron", &BALL.replace("width: 64", &format!("{settings}width: 64")));
+    for (file, bits) in [("a.png", ""), ("b.png", "--bits 16"), ("c.exr", "")] {
+        assert_eq!(desk.run(&format!("render raw.ron -o {file} -q {bits}")).0, 0);
+        let told = format!("{file}: drawn again from raw.ron: the same to the last bit\n");
+        assert_eq!(desk.run(&format!("repro {file}")), (0, told, String::new()));
+    }
+}
+
+#[test]
 fn scenes_are_laid_out_in_place_and_checked() {
     let desk = Desk::new();
     desk.put("ugly.ron", "Scene(version:1,entities:{\"a\":[Sphere(radius :1,) ] , // one\n})");

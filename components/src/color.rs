@@ -17,6 +17,27 @@ choice! {
     }
 }
 
+impl Encoding {
+    /// The light that a number in 0..=1 means.
+    #[must_use]
+    pub fn decode(self, number: f64) -> f64 {
+        match self {
+            Self::Srgb => linear_from_srgb(number),
+            Self::Raw => number,
+        }
+    }
+
+    /// The number in 0..=1 that means some light; what is outside 0..=1 is clamped, NaN gives 0.
+    #[must_use]
+    pub fn encode(self, light: f64) -> f64 {
+        match self {
+            Self::Srgb => srgb_from_linear(light),
+            Self::Raw if light.is_nan() => 0.0,
+            Self::Raw => light.clamp(0.0, 1.0),
+        }
+    }
+}
+
 /// Linear light of an sRGB-encoded value in 0..=1 (IEC 61966-2-1).
 #[must_use]
 pub fn linear_from_srgb(encoded: f64) -> f64 {

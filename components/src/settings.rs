@@ -2,8 +2,9 @@
 
 use crate::{
     choice,
-    color::Rgb,
-    describe::{Describe, FieldVisitor, Spec, Value},
+    color::{Encoding, Rgb},
+    describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    transform::{Transform, is_invertible},
 };
 use bevy_ecs::prelude::*;
 
@@ -40,6 +41,12 @@ pub struct Settings {
     /// One half is for rays that are not followed: it is never exceeded. The other is for the samples of lights with an
     /// area and of [`Antialias::Adaptive`], and is kept by two standard errors.
     pub error: f64,
+    /// What the numbers of colours in files mean, and what is written into pictures.
+    pub encoding: Encoding,
+    /// Places the scene as a whole before the camera, which stays.
+    pub transform: Transform,
+    /// Whether `transform` places the lights as well; if not they stay, too.
+    pub transform_lights: bool,
 }
 
 choice! {
@@ -81,6 +88,9 @@ impl Default for Settings {
             background: Rgb::ZERO,
             cutoff: 0.001,
             error: 0.0,
+            encoding: Encoding::Srgb,
+            transform: Transform::default(),
+            transform_lights: true,
         }
     }
 }
@@ -111,5 +121,19 @@ impl Describe for Settings {
         fields.field("cutoff", Value::Number(&mut self.cutoff), cutoff);
         let error = Spec::within(0.0, 1.0, "error of a pixel's channels that may be made, linear; 0: no promise");
         fields.field("error", Value::Number(&mut self.error), error);
+        let encoding = Spec::any("what the numbers of colours in files mean: encoded for a screen, or light itself");
+        fields.field("encoding", Value::Choice(&mut self.encoding), encoding);
+        let transform = Spec::any("steps that place the scene as a whole before the camera");
+        fields.field("transform", Value::Steps(&mut self.transform.0), transform);
+        let lights = Spec::any("whether those place the lights as well");
+        fields.field("transform_lights", Value::Bool(&mut self.transform_lights), lights);
+    }
+
+    fn check(&self) -> Result<(), Fault> {
+        if is_invertible(&self.transform.matrix()) {
+            Ok(())
+        } else {
+            Err(Fault::new("transform", Transform::MUST_BE_UNDONE))
+        }
     }
 }

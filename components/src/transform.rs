@@ -5,6 +5,7 @@ use crate::{
     math,
 };
 use bevy_ecs::prelude::*;
+use core::fmt;
 use glam::{DAffine3, DMat3, DVec3};
 use smallvec::SmallVec;
 
@@ -45,6 +46,22 @@ impl Step {
     }
 }
 
+/// As a scene file has it.
+impl fmt::Display for Step {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Translate(DVec3 { x, y, z }) => write!(f, "Translate(({x:?}, {y:?}, {z:?}))"),
+            Self::Scale(DVec3 { x, y, z }) => write!(f, "Scale(({x:?}, {y:?}, {z:?}))"),
+            Self::RotateX(degrees) => write!(f, "RotateX({degrees:?})"),
+            Self::RotateY(degrees) => write!(f, "RotateY({degrees:?})"),
+            Self::RotateZ(degrees) => write!(f, "RotateZ({degrees:?})"),
+            Self::Rotate { axis: DVec3 { x, y, z }, degrees } => {
+                write!(f, "Rotate(axis: ({x:?}, {y:?}, {z:?}), degrees: {degrees:?})")
+            }
+        }
+    }
+}
+
 /// Rodrigues' rotation about a unit axis.
 fn rotation(axis: DVec3, degrees: f64) -> DAffine3 {
     let (sin, cos) = math::sin_cos_degrees(degrees);
@@ -59,6 +76,10 @@ fn rotation(axis: DVec3, degrees: f64) -> DAffine3 {
 pub struct Transform(pub SmallVec<[Step; 4]>);
 
 impl Transform {
+    /// What is expected of a placement, to follow the word "expected".
+    pub(crate) const MUST_BE_UNDONE: &'static str =
+        "a placement that can be undone: this one is singular or not finite";
+
     /// A placement from steps.
     #[must_use]
     pub fn new(steps: impl IntoIterator<Item = Step>) -> Self {
@@ -87,11 +108,7 @@ impl Describe for Transform {
     }
 
     fn check(&self) -> Result<(), Fault> {
-        if is_invertible(&self.matrix()) {
-            Ok(())
-        } else {
-            Err(Fault::new("steps", "a placement that can be undone: this one is singular or not finite"))
-        }
+        if is_invertible(&self.matrix()) { Ok(()) } else { Err(Fault::new("steps", Self::MUST_BE_UNDONE)) }
     }
 }
 
@@ -101,9 +118,9 @@ pub fn is_invertible(matrix: &DAffine3) -> bool {
     matrix.is_finite() && matrix.matrix3.determinant() != 0.0 && matrix.inverse().is_finite()
 }
 
-/// Placement in the world: maps object space to world space.
+/// Placement in the scene, and in the world unless the settings place the scene as a whole: maps object space to there.
 ///
-/// Written by the transform system alone, from [`Transform`] and the parents' placements; always invertible.
+/// Written by the transform system alone, from [`Transform`] and the parents' placements.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct GlobalTransform(pub DAffine3);
 

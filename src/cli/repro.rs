@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{Picture, Region, Renderer};
 use clap::Args;
-use snell_components::settings::Settings;
+use snell_components::{color::Encoding, settings::Settings};
 use snell_systems::{
     compare::{self, Comparison},
     image::{self, Format, Metadata, key},
@@ -64,7 +64,8 @@ pub(super) fn repro(renderer: &mut Renderer, args: &ReproArguments, console: &mu
         return Err(Failure::Stopped(format!("stopped after {} % of the picture", drawn.percent())));
     }
     let same_light = drawn.frame.picture.hash() == hash;
-    let again = image::as_read(&drawn.frame.picture, format(file, &picture)?);
+    let encoding = told.encoding();
+    let again = image::as_read(&drawn.frame.picture, format(file, &picture, encoding)?, encoding);
     let from = how.scene.display();
     if same_light && again == picture {
         console.say(of_scene(file, format!("drawn again from {from}: the same to the last bit")));
@@ -123,9 +124,9 @@ impl Told {
 }
 
 /// The kind of a file; PNG files of 16 bits show it by the levels of the picture that was read.
-fn format(file: &Path, read: &Picture) -> Result<Format, Failure> {
+fn format(file: &Path, read: &Picture, encoding: Encoding) -> Result<Format, Failure> {
     match Format::of(file).map_err(|why| Failure::Usage(why.to_string()))? {
-        Format::Png8 if image::as_read(read, Format::Png8) != *read => Ok(Format::Png16),
+        Format::Png8 if image::as_read(read, Format::Png8, encoding) != *read => Ok(Format::Png16),
         format => Ok(format),
     }
 }

@@ -70,6 +70,7 @@ impl Renderer {
         let mut world = World::new();
         world.init_resource::<Registry>();
         world.init_resource::<Settings>();
+        world.init_resource::<transform::ScenePlacement>();
         world.init_resource::<Scenery>();
         world.init_resource::<extract::Parts>();
         world.init_resource::<extract::Outcome>();
@@ -82,7 +83,7 @@ impl Renderer {
         schedule
             .configure_sets((Stage::Transform, Stage::Unpack, Stage::Pack, Stage::Accelerate, Stage::Extract).chain());
         schedule.add_systems((
-            transform::propagate.in_set(Stage::Transform),
+            (transform::propagate, transform::place_scene).in_set(Stage::Transform),
             accelerate::build.in_set(Stage::Accelerate),
             (extract::gather_lights, extract::gather_materials, extract::extract).chain().in_set(Stage::Extract),
         ));

@@ -1,7 +1,7 @@
 //! Images as they are kept in memory: in the numbers of their file.
 
 use super::pyramid::Level;
-use crate::color::{Encoding, linear_from_srgb};
+use crate::color::Encoding;
 use std::sync::{Arc, LazyLock, OnceLock};
 
 /// Pixels of an image, the first row on top.
@@ -117,26 +117,28 @@ impl Image {
     }
 }
 
-/// What 8-bit numbers mean, by [`Encoding`].
-static BYTES: [LazyLock<Box<[f32]>>; 2] =
-    [LazyLock::new(|| srgb(u8::MAX.into())), LazyLock::new(|| raw(u8::MAX.into()))];
+/// What numbers of a file mean, by [`Encoding`].
+type Meaning = [LazyLock<Box<[f32]>>; 2];
 
-/// What 16-bit numbers mean, by [`Encoding`].
-static WORDS: [LazyLock<Box<[f32]>>; 2] = [LazyLock::new(|| srgb(u16::MAX)), LazyLock::new(|| raw(u16::MAX))];
+/// Of 8-bit numbers.
+static BYTES: Meaning = [
+    LazyLock::new(|| decoded(Encoding::Srgb, u8::MAX.into())),
+    LazyLock::new(|| decoded(Encoding::Raw, u8::MAX.into())),
+];
 
-/// Linear light of every sRGB-encoded number from 0 to `most`.
-fn srgb(most: u16) -> Box<[f32]> {
-    (0..=most).map(|number| linear_from_srgb(f64::from(number) / f64::from(most)) as f32).collect()
-}
+/// Of 16-bit numbers.
+static WORDS: Meaning =
+    [LazyLock::new(|| decoded(Encoding::Srgb, u16::MAX)), LazyLock::new(|| decoded(Encoding::Raw, u16::MAX))];
 
-/// Every number from 0 to `most` as a part of that.
-fn raw(most: u16) -> Box<[f32]> {
-    (0..=most).map(|number| (f64::from(number) / f64::from(most)) as f32).collect()
+/// What every number from 0 to `most` means.
+fn decoded(encoding: Encoding, most: u16) -> Box<[f32]> {
+    (0..=most).map(|number| encoding.decode(f64::from(number) / f64::from(most)) as f32).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color::linear_from_srgb;
 
     #[test]
     fn an_image_has_as_many_texels_as_its_size_says() {

@@ -39,7 +39,11 @@ impl Describe for ImageTexture {
 
 impl Texture for ImageTexture {
     fn pack(&self) -> Option<Arc<dyn Pattern>> {
+        self.pack_as(Encoding::Srgb)
+    }
+
+    fn pack_as(&self, encoding: Encoding) -> Option<Arc<dyn Pattern>> {
         let image = self.image.data.clone()?;
-        Some(Arc::new(Sampler::new(image, Encoding::Srgb, self.wrap, self.filter)))
+        Some(Arc::new(Sampler::new(image, encoding, self.wrap, self.filter)))
     }
 }

@@ -18,7 +18,10 @@ pub use image_texture::ImageTexture;
 pub use sampler::{Filter, Sampler};
 pub use wrap::Wrap;
 
-use crate::{color::Rgb, describe::Describe};
+use crate::{
+    color::{Encoding, Rgb},
+    describe::Describe,
+};
 use bevy_ecs::{component::Mutable, prelude::*};
 use glam::{DVec2, DVec3};
 use std::sync::Arc;
@@ -27,6 +30,11 @@ use std::sync::Arc;
 pub trait Texture: Describe + Component<Mutability = Mutable> {
     /// The form the render reads; nothing if there is nothing to show.
     fn pack(&self) -> Option<Arc<dyn Pattern>>;
+
+    /// The same, where the numbers of files mean what `encoding` says; of interest to textures that come from files.
+    fn pack_as(&self, _encoding: Encoding) -> Option<Arc<dyn Pattern>> {
+        self.pack()
+    }
 }
 
 /// A colour for every point of a surface.

@@ -4,6 +4,7 @@ use super::{
     geometry::Geometry,
     pool::{ErasedPool, Pool},
 };
+use crate::transform::ScenePlacement;
 use bevy_ecs::prelude::*;
 use snell_components::{
     name::{Name, Rank},
@@ -52,12 +53,17 @@ pub fn unpack<P: Primitive>(
 
 /// Packs the shapes of one type that were changed or moved, and writes their bounding spheres.
 pub fn pack<P: Primitive>(
-    changed: Query<(Entity, &P, &GlobalTransform), Or<(Changed<P>, Changed<GlobalTransform>)>>,
+    shapes: Query<(Entity, Ref<P>, Ref<GlobalTransform>)>,
+    scene: Res<ScenePlacement>,
     mut commands: Commands,
 ) {
-    for (entity, shape, placed) in &changed {
-        let result = if is_invertible(&placed.0) {
-            shape.pack(&placed.0)
+    for (entity, shape, placed) in &shapes {
+        if !(shape.is_changed() || placed.is_changed() || scene.is_changed()) {
+            continue;
+        }
+        let placed = scene.of_shape(&placed);
+        let result = if is_invertible(&placed) {
+            shape.pack(&placed)
         } else {
             Err(Degenerate("its placement is singular or not finite".into()))
         };

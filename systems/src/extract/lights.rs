@@ -1,7 +1,7 @@
 //! Lights, out of the world.
 
 use super::Parts;
-use crate::snapshot::Lights;
+use crate::{snapshot::Lights, transform::ScenePlacement};
 use bevy_ecs::prelude::*;
 use snell_components::{
     color::Rgb,
@@ -26,11 +26,15 @@ pub fn unpack_lights<L: Light>(mut removed: RemovedComponents<L>, mut gone: Quer
 
 /// Packs the lights of one type that were changed or moved.
 pub fn pack_lights<L: Light>(
-    changed: Query<(Entity, &L, &GlobalTransform), Or<(Changed<L>, Changed<GlobalTransform>)>>,
+    lights: Query<(Entity, Ref<L>, Ref<GlobalTransform>)>,
+    scene: Res<ScenePlacement>,
     mut commands: Commands,
 ) {
-    for (entity, light, placed) in &changed {
-        let lamp = Arc::new(light.pack(&placed.0));
+    for (entity, light, placed) in &lights {
+        if !(light.is_changed() || placed.is_changed() || scene.is_changed()) {
+            continue;
+        }
+        let lamp = Arc::new(light.pack(&scene.of_light(&placed)));
         commands.entity(entity).entry::<PackedLamps>().or_default().and_modify(move |mut lamps| {
             lamps.0.insert(L::TAG, lamp);
         });

@@ -7,12 +7,13 @@ use crate::{
 };
 use bevy_ecs::{prelude::*, query::QueryData, system::SystemParam};
 use snell_components::{
-    color::Rgb,
+    color::{Encoding, Rgb},
     material::{
         Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MadeOf, MaterialSlots, MediumRank,
         Mirror, Opacity, Refraction, Transmission,
     },
     name::{Name, Rank},
+    settings::Settings,
     texture::{Pattern, Texture},
 };
 use std::{
@@ -35,10 +36,19 @@ pub fn unpack_textures<T: Texture>(
     }
 }
 
-/// Packs the textures of one type that were changed.
-pub fn pack_textures<T: Texture>(changed: Query<(Entity, &T), Changed<T>>, mut commands: Commands) {
-    for (entity, texture) in &changed {
-        commands.entity(entity).insert(PackedTexture(texture.pack()));
+/// Packs the textures of one type that were changed; all of them if what numbers in files mean was changed.
+pub fn pack_textures<T: Texture>(
+    textures: Query<(Entity, Ref<T>)>,
+    settings: Res<Settings>,
+    mut packed_as: Local<Encoding>,
+    mut commands: Commands,
+) {
+    let encoding = settings.encoding;
+    let all = core::mem::replace(&mut *packed_as, encoding) != encoding;
+    for (entity, texture) in &textures {
+        if all || texture.is_changed() {
+            commands.entity(entity).insert(PackedTexture(texture.pack_as(encoding)));
+        }
     }
 }
 

@@ -2,8 +2,11 @@
 
 use super::SceneError;
 use crate::snapshot::View;
-use glam::{DAffine3, DVec3};
-use snell_components::{camera::Camera, math, transform::is_invertible};
+use glam::DAffine3;
+use snell_components::{
+    camera::{Camera, screen_axes},
+    transform::is_invertible,
+};
 
 /// The view of a camera placed by `world_from_object`.
 ///
@@ -13,34 +16,20 @@ pub(super) fn view(camera: &Camera, world_from_object: &DAffine3) -> Result<View
     if !is_invertible(world_from_object) {
         return Err(SceneError::camera("its placement is singular or not finite"));
     }
+    let camera = camera.moved();
     let eye = world_from_object.transform_point3(camera.position);
     let forward = world_from_object.transform_vector3(camera.view()).try_normalize();
     let Some(forward) = forward else {
         return Err(SceneError::camera("it looks nowhere: its direction has no length"));
     };
-    let up = world_from_object.transform_vector3(camera.up);
-    // Looking along `up` leaves the roll open: take the axis farthest from the view instead.
-    let right = forward.cross(up).try_normalize().unwrap_or_else(|| {
-        let size = forward.abs();
-        let axis = if size.y <= size.x && size.y <= size.z {
-            DVec3::Y
-        } else if size.z <= size.x {
-            DVec3::Z
-        } else {
-            DVec3::X
-        };
-        forward.cross(axis).normalize()
-    });
-    let up = right.cross(forward);
-    let (sin, cos) = math::sin_cos_degrees(camera.roll);
-    let (right, up) = (right * cos - up * sin, up * cos + right * sin);
-    let distance = camera.screen_distance.unwrap_or_else(|| 0.5 / math::tan_degrees(0.5 * camera.field_of_view));
-    Ok(View { eye, right, up, forward: forward * distance })
+    let (right, up) = screen_axes(forward, world_from_object.transform_vector3(camera.up), camera.roll);
+    Ok(View { eye, right, up, forward: forward * camera.distance() })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
 
     #[test]
     fn looks_along_minus_z_with_x_to_the_right() {

@@ -2,8 +2,10 @@
 
 use crate::render::Frame;
 use snell_components::{
+    color::Encoding,
     describe::{Describe, FieldVisitor, Spec, Value},
     settings::Settings,
+    transform::Step,
 };
 use std::{collections::BTreeMap, path::Path};
 
@@ -17,6 +19,8 @@ pub mod key {
     pub const SETTINGS: &str = "snell:settings";
     /// The methods by which rays found what they met; absent if those are the default ones.
     pub const METHODS: &str = "snell:methods";
+    /// What the levels of a PNG mean, a word of [`super::Encoding`]; absent for sRGB.
+    pub const ENCODING: &str = "snell:encoding";
     /// The region drawn, as `x,y,width,height`; absent if that is the whole picture.
     pub const REGION: &str = "snell:region";
     /// Pixels drawn and pixels asked for, as `drawn/asked`; absent if all were drawn.
@@ -47,6 +51,9 @@ impl Metadata {
         this.insert(key::SOFTWARE, Self::SOFTWARE);
         this.insert(key::SCENE, scene.to_string_lossy());
         this.insert(key::SETTINGS, settings_text(settings));
+        if settings.encoding != Encoding::default() {
+            this.insert(key::ENCODING, format!("{:?}", settings.encoding));
+        }
         let region = frame.region;
         if region != crate::render::Region::whole(settings.width, settings.height) {
             this.insert(key::REGION, format!("{},{},{},{}", region.x, region.y, region.width, region.height));
@@ -63,6 +70,12 @@ impl Metadata {
     /// Puts a value under a key, in place of what was there; control characters such as line breaks become spaces.
     pub fn insert(&mut self, key: &str, value: impl AsRef<str>) {
         self.0.insert(key.into(), value.as_ref().replace(char::is_control, " "));
+    }
+
+    /// What the levels of a PNG mean.
+    #[must_use]
+    pub fn encoding(&self) -> Encoding {
+        if self.get(key::ENCODING) == Some("Raw") { Encoding::Raw } else { Encoding::Srgb }
     }
 
     /// The value of a key.
@@ -88,6 +101,9 @@ fn settings_text(settings: &Settings) -> String {
                 Value::Bool(yes) => yes.to_string(),
                 Value::Color(c) => format!("({:?}, {:?}, {:?})", c.x, c.y, c.z),
                 Value::Choice(choice) => format!("{choice:?}"),
+                Value::Steps(steps) => {
+                    format!("[{}]", steps.iter().map(Step::to_string).collect::<Vec<_>>().join(", "))
+                }
                 other => format!("{other:?}"),
             };
             self.0.push(format!("{name}: {value}"));

@@ -1,7 +1,7 @@
 //! Stage 6: picture → file, and back.
 //!
-//! PNG holds the picture sRGB-encoded in 8 or 16 bits, OpenEXR the linear light itself in 32-bit floats. Both carry
-//! [`Metadata`]: how the picture was made. The same picture with the same metadata gives the same bytes, always.
+//! PNG holds the picture sRGB-encoded in 8 or 16 bits, or as it is where [`key::ENCODING`] says so; OpenEXR the light
+//! itself in 32-bit floats. Both carry [`Metadata`]: how the picture was made. The same picture with the same metadata gives the same bytes, always.
 
 mod encode;
 mod exr;
@@ -9,7 +9,7 @@ mod file;
 mod metadata;
 mod png;
 
-pub use encode::{as_read, srgb8, srgb16};
+pub use encode::{as_read, levels8, levels16, srgb8, srgb16};
 pub use file::{FileError, check_writable, write_atomically};
 pub use metadata::{Metadata, key};
 
@@ -60,7 +60,8 @@ pub fn write(path: &Path, format: Format, picture: &Picture, metadata: &Metadata
     write_atomically(path, &bytes)
 }
 
-/// Reads a picture, in linear light, and what is known of how it was made. Alpha is dropped; every PNG is taken as sRGB.
+/// Reads a picture, in linear light, and what is known of how it was made. Alpha is dropped; a PNG is taken as sRGB
+/// unless [`key::ENCODING`] says otherwise.
 ///
 /// # Errors
 /// A file that cannot be read, or is not what its extension says, or has more than 2²⁸ pixels.

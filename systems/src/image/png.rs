@@ -1,9 +1,9 @@
 //! PNG files.
 
-use super::{Metadata, checked_size, srgb8, srgb16};
+use super::{Metadata, checked_size, levels8, levels16};
 use crate::render::Picture;
 use ::png::{BitDepth, ColorType, Decoder, Encoder, SrgbRenderingIntent, Transformations};
-use snell_components::color::linear_from_srgb;
+use snell_components::color::Encoding;
 use std::io::Cursor;
 
 /// Bits of a channel.
@@ -19,18 +19,21 @@ pub(super) fn encode(picture: &Picture, depth: Depth, metadata: &Metadata) -> Re
         let mut file = vec![];
         let mut encoder = Encoder::new(&mut file, picture.width, picture.height);
         encoder.set_color(ColorType::Rgb);
-        encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+        let encoding = metadata.encoding();
+        if encoding == Encoding::Srgb {
+            encoder.set_source_srgb(SrgbRenderingIntent::Perceptual);
+        }
         for (key, value) in metadata.iter() {
             encoder.add_itxt_chunk(key.into(), value.into())?;
         }
         let levels = match depth {
             Depth::Eight => {
                 encoder.set_depth(BitDepth::Eight);
-                srgb8(picture).into_flattened()
+                levels8(picture, encoding).into_flattened()
             }
             Depth::Sixteen => {
                 encoder.set_depth(BitDepth::Sixteen);
-                srgb16(picture).into_iter().flatten().flat_map(u16::to_be_bytes).collect()
+                levels16(picture, encoding).into_iter().flatten().flat_map(u16::to_be_bytes).collect()
             }
         };
         let mut writer = encoder.write_header()?;
@@ -63,14 +66,6 @@ pub(super) fn decode(file: &[u8]) -> Result<(Picture, Metadata), String> {
         }
         _ => levels.iter().map(|byte| f64::from(*byte) / f64::from(u8::MAX)).collect(),
     };
-    let linear = |channel: f64| linear_from_srgb(channel) as f32;
-    let pixels = match frame.color_type {
-        ColorType::Grayscale | ColorType::Indexed => channels.iter().map(|grey| [linear(*grey); 3]).collect(),
-        ColorType::GrayscaleAlpha => channels.as_chunks().0.iter().map(|[grey, _]| [linear(*grey); 3]).collect(),
-        ColorType::Rgb => channels.as_chunks().0.iter().map(|rgb: &[f64; 3]| rgb.map(linear)).collect(),
-        ColorType::Rgba => channels.as_chunks().0.iter().map(|[r, g, b, _]| [*r, *g, *b].map(linear)).collect(),
-    };
-
     let info = reader.info();
     let mut metadata = Metadata::default();
     for chunk in &info.uncompressed_latin1_text {
@@ -82,6 +77,15 @@ pub(super) fn decode(file: &[u8]) -> Result<(Picture, Metadata), String> {
             metadata.insert(&chunk.keyword, text);
         }
     }
+    let encoding = metadata.encoding();
+    let linear = |channel: f64| encoding.decode(channel) as f32;
+    let pixels = match frame.color_type {
+        ColorType::Grayscale | ColorType::Indexed => channels.iter().map(|grey| [linear(*grey); 3]).collect(),
+        ColorType::GrayscaleAlpha => channels.as_chunks().0.iter().map(|[grey, _]| [linear(*grey); 3]).collect(),
+        ColorType::Rgb => channels.as_chunks().0.iter().map(|rgb: &[f64; 3]| rgb.map(linear)).collect(),
+        ColorType::Rgba => channels.as_chunks().0.iter().map(|[r, g, b, _]| [*r, *g, *b].map(linear)).collect(),
+    };
+
     Ok((Picture { width, height, pixels }, metadata))
 }
 

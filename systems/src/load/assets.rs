@@ -5,7 +5,7 @@ use super::{
     image,
     obj::{self, Model},
 };
-use snell_components::texture::Image;
+use snell_components::{color::Encoding, texture::Image};
 use std::{
     collections::BTreeMap,
     fs, io,
@@ -19,6 +19,8 @@ const NEIGHBOURS: usize = 1000;
 /// What was read from files so far, by canonical path; `None` for a file with faults.
 #[derive(Default)]
 pub(super) struct Assets {
+    /// What the numbers of colours mean in the scene that names the files.
+    pub(super) encoding: Encoding,
     models: Vec<(String, Model)>,
     model_by_file: BTreeMap<PathBuf, Option<usize>>,
     image_by_file: BTreeMap<PathBuf, Option<Arc<Image>>>,

@@ -65,7 +65,7 @@ pub(super) fn fill<T>(
     report: &mut Report,
     describe: impl FnOnce(&mut dyn FieldVisitor) -> (T, Result<(), Fault>),
 ) -> Option<Filled<T>> {
-    let values = Values { text: &written.source.text, faults: vec![] };
+    let values = Values { text: &written.source.text, encoding: assets.encoding, faults: vec![] };
     let mut reader = Reader {
         written,
         values,

@@ -34,7 +34,7 @@ pub(crate) use values::LARGEST;
 use component::{Given, Written};
 use include::Layout;
 use node::Form;
-use snell_components::{describe::Describe, settings::Settings};
+use snell_components::{color::Encoding, describe::Describe, settings::Settings};
 use source::{Place, Report, Source, excerpt};
 use std::{collections::BTreeMap, path::Path};
 
@@ -118,6 +118,7 @@ fn read_settings(sources: &[Source], assets: &mut Assets, report: &mut Report) -
             }
         };
         let written = Written { source, place, given };
+        assets.encoding = encoding(source, given);
         let filled = component::fill(written, "settings", assets, report, |fields| {
             let mut settings = Settings::default();
             settings.describe(fields);
@@ -127,6 +128,17 @@ fn read_settings(sources: &[Source], assets: &mut Assets, report: &mut Report) -
         settings = filled.map_or(settings, |filled| filled.value);
     }
     settings
+}
+
+/// What colours mean, the background among the settings included, so it is looked up before anything is read; a fault in
+/// it is told with those of the other settings.
+fn encoding(source: &Source, given: Given<'_>) -> Encoding {
+    let Given::Named(fields) = given else { return Encoding::default() };
+    let field = fields.iter().find(|field| field.name(&source.text) == "encoding");
+    match field.and_then(|field| field.value.tag(&source.text)) {
+        Some("Raw") => Encoding::Raw,
+        _ => Encoding::Srgb,
+    }
 }
 
 #[cfg(test)]

@@ -143,7 +143,7 @@ const BAD_SCENES: &[Bad] = &[
     (
         "Scene(version: 1, settings: (widht: 5, background: (1, 2), cutoff: -1, depth: -1))",
         &[
-            "1:30: settings: unknown field `widht`; did you mean `width`? Fields are `width`, `height`, `depth`, `antialias`, `grid`, `subdivisions`, `contrast`, `shadows`, `refraction`, `background`, `cutoff` and `error`",
+            "1:30: settings: unknown field `widht`; did you mean `width`? Fields are `width`, `height`, `depth`, `antialias`, `grid`, `subdivisions`, `contrast`, `shadows`, `refraction`, `background`, `cutoff`, `error`, `encoding`, `transform` and `transform_lights`",
             r##"1:52: settings.background: expected a colour: one number, three numbers or "#rrggbb", each of at least 0, found `(1, 2)`"##,
             "1:68: settings.cutoff: expected a number from 0 to 1, found `-1`",
             "1:79: settings.depth: expected a whole number from 0 to 100000, found `-1`",
@@ -154,7 +154,7 @@ const BAD_SCENES: &[Bad] = &[
         &[
             "1:37: settings.width: expected a whole number from 1 to 65536, found `5000000000`",
             r#"1:60: settings.antialias: expected `Off`, `Four`, `Grid` or `Adaptive`, found `"Four"`"#,
-            "1:68: settings: unknown field `gamma`; fields are `width`, `height`, `depth`, `antialias`, `grid`, `subdivisions`, `contrast`, `shadows`, `refraction`, `background`, `cutoff` and `error`",
+            "1:68: settings: unknown field `gamma`; fields are `width`, `height`, `depth`, `antialias`, `grid`, `subdivisions`, `contrast`, `shadows`, `refraction`, `background`, `cutoff`, `error`, `encoding`, `transform` and `transform_lights`",
         ],
     ),
     (

@@ -7,7 +7,7 @@ use super::{
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 use snell_components::{
-    color::{Rgb, linear_from_srgb},
+    color::{Encoding, Rgb},
     describe::{Range, Spec},
     transform::Step,
 };
@@ -68,6 +68,8 @@ pub(super) fn check_names(
 /// Reads values from a text; each reader gives nothing and notes why where the value is not sound.
 pub(super) struct Values<'a> {
     pub(super) text: &'a str,
+    /// What colours `"#rrggbb"` mean.
+    pub(super) encoding: Encoding,
     pub(super) faults: Vec<Complaint>,
 }
 
@@ -170,7 +172,7 @@ impl<'a> Values<'a> {
         match &node.form {
             Form::Number | Form::Word => self.number(node, range).map(Rgb::splat),
             Form::Text => {
-                let color = node.string(self.text).as_deref().and_then(color_from_hex);
+                let color = node.string(self.text).and_then(|text| color_from_hex(&text, self.encoding));
                 if color.is_none() {
                     self.unexpected(node, "an sRGB colour \"#rrggbb\" or \"#rgb\"");
                 }
@@ -285,13 +287,13 @@ fn each(range: Range) -> String {
     if limits.is_empty() { limits } else { format!(", each{limits}") }
 }
 
-/// Linear light of an sRGB colour `#rrggbb` or `#rgb`.
-fn color_from_hex(text: &str) -> Option<Rgb> {
+/// The light of a colour `#rrggbb` or `#rgb`.
+fn color_from_hex(text: &str, encoding: Encoding) -> Option<Rgb> {
     let digits: Vec<u32> = text.strip_prefix('#')?.chars().map(|c| c.to_digit(16)).collect::<Option<_>>()?;
     let bytes = match digits[..] {
         [r, g, b] => [r * 17, g * 17, b * 17],
         [r1, r0, g1, g0, b1, b0] => [r1 * 16 + r0, g1 * 16 + g0, b1 * 16 + b0],
         _ => return None,
     };
-    Some(Rgb::from_array(bytes.map(|byte| linear_from_srgb(f64::from(byte) / 255.0))))
+    Some(Rgb::from_array(bytes.map(|byte| encoding.decode(f64::from(byte) / 255.0))))
 }
