@@ -8,7 +8,7 @@ use crate::{
     registry::{AnyComponent, Kind, Registry},
     scene::{Scene, Thing, is_of_model},
 };
-use snell_components::{describe::Describe, name::Name, settings::Settings};
+use snell_components::{color::Encoding, describe::Describe, name::Name, settings::Settings};
 use std::collections::BTreeSet;
 
 /// Longest line that holds an entity whole.
@@ -32,7 +32,7 @@ pub fn scene_text(scene: &Scene, registry: &Registry) -> Result<String, Unsayabl
             faults.0.push(format!("{:?}: names have at least one character and each stands once", name.as_str()));
         }
         let key = quoted(name.as_str()).unwrap_or_default();
-        let components = components(name, thing, registry, &mut faults);
+        let components = components(name, thing, (registry, scene.settings.encoding), &mut faults);
         text += &wrapped(&format!("        {key}: ["), &components, "],\n", "            ");
     }
     text += "    },\n)\n";
@@ -52,10 +52,11 @@ fn wrapped(open: &str, items: &[String], close: &str, indent: &str) -> String {
 
 /// The fields of the settings that do not have their default.
 fn written_settings(settings: &Settings, faults: &mut Unsayable) -> Vec<String> {
+    let encoding = settings.encoding;
     let all = |mut settings: Settings| {
-        let mut writer = Writer::default();
+        let mut writer = Writer { fields: vec![], encoding };
         settings.describe(&mut writer);
-        writer.0
+        writer.fields
     };
     let (written, default) = (all(settings.clone()), all(Settings::default()));
     named(&written, &default, "settings", faults)
@@ -75,7 +76,12 @@ fn named(written: &[Written], default: &[Written], subject: &str, faults: &mut U
 }
 
 /// What stands in the list of an entity.
-fn components(name: &Name, thing: &Thing, registry: &Registry, faults: &mut Unsayable) -> Vec<String> {
+fn components(
+    name: &Name,
+    thing: &Thing,
+    (registry, encoding): (&Registry, Encoding),
+    faults: &mut Unsayable,
+) -> Vec<String> {
     let mut parts: Vec<(Kind, &dyn AnyComponent, _)> = vec![];
     for (tag, component) in &thing.components {
         match registry.get(tag) {
@@ -88,7 +94,8 @@ fn components(name: &Name, thing: &Thing, registry: &Registry, faults: &mut Unsa
         .into_iter()
         .map(|(_, component, entry)| {
             let subject = format!("{:?}: {}", name.as_str(), component.tag());
-            component_text(component, (entry.new)().as_ref(), &subject, faults)
+            let default = fields((entry.new)().as_ref(), encoding);
+            component_text(component.tag(), &fields(component, encoding), &default, &subject, faults)
         })
         .collect();
     let mut relation = |tag: &str, to: &Option<Name>| match to {
@@ -109,13 +116,13 @@ fn components(name: &Name, thing: &Thing, registry: &Registry, faults: &mut Unsa
 
 /// A component: its tag and those fields that are to be given.
 fn component_text(
-    component: &dyn AnyComponent,
-    default: &dyn AnyComponent,
+    tag: &str,
+    written: &[Written],
+    default: &[Written],
     subject: &str,
     faults: &mut Unsayable,
 ) -> String {
-    let (tag, written) = (component.tag(), fields(component));
-    if let [only] = written.as_slice()
+    if let [only] = written
         && only.required
     {
         return match &only.text {
@@ -126,6 +133,6 @@ fn component_text(
             }
         };
     }
-    let stated = named(&written, &fields(default), subject, faults);
+    let stated = named(written, default, subject, faults);
     if stated.is_empty() { tag.into() } else { format!("{tag}({})", stated.join(", ")) }
 }

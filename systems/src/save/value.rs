@@ -4,7 +4,7 @@ use crate::{load::LARGEST, registry::AnyComponent};
 use core::fmt::Display;
 use glam::DVec3;
 use snell_components::{
-    color::{Rgb, linear_from_srgb, srgb_from_linear},
+    color::{Encoding, Rgb},
     describe::{FieldVisitor, Spec, Value},
     transform::Step,
 };
@@ -26,20 +26,22 @@ pub struct Written {
 /// Whether two components hold the same, to the last bit.
 #[must_use]
 pub fn same(a: &dyn AnyComponent, b: &dyn AnyComponent) -> bool {
-    a.tag() == b.tag() && fields(a) == fields(b)
+    a.tag() == b.tag() && fields(a, Encoding::Srgb) == fields(b, Encoding::Srgb)
 }
 
-/// All fields of a component.
+/// All fields of a component, in a scene in which the numbers of colours mean what `encoding` says.
 #[must_use]
-pub fn fields(component: &dyn AnyComponent) -> Vec<Written> {
-    let mut writer = Writer(vec![]);
+pub fn fields(component: &dyn AnyComponent, encoding: Encoding) -> Vec<Written> {
+    let mut writer = Writer { fields: vec![], encoding };
     component.copy().visit(&mut writer);
-    writer.0
+    writer.fields
 }
 
 /// Writes fields as it sees them.
-#[derive(Default)]
-pub(super) struct Writer(pub(super) Vec<Written>);
+pub(super) struct Writer {
+    pub(super) fields: Vec<Written>,
+    pub(super) encoding: Encoding,
+}
 
 impl FieldVisitor for Writer {
     fn field(&mut self, name: &'static str, value: Value<'_>, spec: Spec) {
@@ -53,7 +55,7 @@ impl FieldVisitor for Writer {
             Value::OptionalVector(v) => v.map_or(Ok("None".into()), vector),
             Value::Vectors(all) => list(all.iter().map(|v| vector(*v))),
             Value::Vectors2(all) => list(all.iter().map(|v| tuple(&v.to_array()))),
-            Value::Color(color) => self::color(*color),
+            Value::Color(color) => self::color(*color, self.encoding),
             Value::Choice(choice) => Ok(choice.words()[choice.position()].into()),
             Value::Steps(steps) => list(steps.iter().map(|step| self::step(*step))),
             Value::Model(asset) => {
@@ -65,7 +67,7 @@ impl FieldVisitor for Writer {
                 path(&asset.path)
             }
         };
-        self.0.push(Written { name, text, required: spec.required, contents });
+        self.fields.push(Written { name, text, required: spec.required, contents });
     }
 }
 
@@ -99,14 +101,14 @@ fn list(items: impl Iterator<Item = Result<String, String>>) -> Result<String, S
     Ok(format!("[{}]", items.collect::<Result<Vec<_>, _>>()?.join(", ")))
 }
 
-/// One number for grey, an sRGB colour where one has these very bits, and three numbers otherwise.
-fn color(color: Rgb) -> Result<String, String> {
+/// One number for grey, `"#rrggbb"` where that means these very bits, and three numbers otherwise.
+fn color(color: Rgb, encoding: Encoding) -> Result<String, String> {
     let channels = color.to_array();
     if channels.iter().all(|channel| channel.to_bits() == channels[0].to_bits()) {
         return number(channels[0]);
     }
-    let bytes = channels.map(|channel| (srgb_from_linear(channel) * 255.0 + 0.5) as u8);
-    let decoded = bytes.map(|byte| linear_from_srgb(f64::from(byte) / 255.0).to_bits());
+    let bytes = channels.map(|channel| (encoding.encode(channel) * 255.0 + 0.5) as u8);
+    let decoded = bytes.map(|byte| encoding.decode(f64::from(byte) / 255.0).to_bits());
     if decoded == channels.map(f64::to_bits) && !bytes.iter().all(|byte| [0, 255].contains(byte)) {
         let [r, g, b] = bytes;
         return Ok(format!("\"#{r:02x}{g:02x}{b:02x}\""));
@@ -166,10 +168,13 @@ mod tests {
 
     #[test]
     fn colours_take_their_shortest_exact_form() {
-        let srgb = |byte: u8| linear_from_srgb(f64::from(byte) / 255.0);
+        let srgb = |byte: u8| Encoding::Srgb.decode(f64::from(byte) / 255.0);
+        let color = |rgb| color(rgb, Encoding::Srgb);
         assert_eq!(color(Rgb::splat(0.5)).as_deref(), Ok("0.5"));
         assert_eq!(color(Rgb::new(1.0, 0.0, 0.0)).as_deref(), Ok("(1, 0, 0)"));
         assert_eq!(color(Rgb::new(srgb(192), srgb(64), srgb(32))).as_deref(), Ok("\"#c04020\""));
         assert_eq!(color(Rgb::new(0.5, 0.25, 0.125)).as_deref(), Ok("(0.5, 0.25, 0.125)"));
+        let raw = Rgb::new(192.0, 64.0, 32.0) / 255.0;
+        assert_eq!(super::color(raw, Encoding::Raw).as_deref(), Ok("\"#c04020\""));
     }
 }
