@@ -210,7 +210,10 @@ impl Golden {
         let missing = || Failure::Unusable(format!("{} has no `{}`", self.expected.display(), key::HASH));
         let hash = metadata.get(key::HASH).ok_or_else(missing)?;
         // As the file would show it: what 8 bits do not show is for the hash.
-        let comparison = Comparison::between(&expected, &image::as_read(actual, Format::Png8));
+        let comparison = Comparison::between(
+            &expected,
+            &image::as_read(actual, Format::Png8, crate::components::color::Encoding::Srgb),
+        );
         let alike = match self.level {
             Level::Exact => comparison.is_within(Level::Exact) && actual.hash() == hash,
             level => comparison.is_within(level),

@@ -65,7 +65,10 @@ pub(super) fn add(
     };
     if let Some(expected) = expected {
         draw("expected.png", expected)?;
-        draw("difference.png", &compare::shown(expected, &image::as_read(actual, Format::Png8)))?;
+        draw(
+            "difference.png",
+            &compare::shown(expected, &image::as_read(actual, Format::Png8, crate::components::color::Encoding::Srgb)),
+        )?;
     }
     let json = serde_json::to_vec_pretty(entry).map_err(|why| why.to_string())?;
     image::write_atomically(&part(reports, name, "json"), &json).map_err(|why| why.to_string())?;
