@@ -1,6 +1,6 @@
 //! Arithmetic on several numbers at once, at the level the machine has, with the same bits at every level.
 //!
-//! Inner loops are written once, as a [`Job`] generic over [`Lanes`], and compiled for each [`Level`]. All levels do the
+//! Inner loops are written once, as a `Job` generic over `Lanes`, and compiled for each [`Level`]. All levels do the
 //! same operations in the same order and round each of them, so they differ in speed alone: there is no fused
 //! multiply-add and no approximate reciprocal here.
 
