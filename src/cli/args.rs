@@ -63,6 +63,10 @@ pub(super) struct RenderArguments {
     /// Write what the render did to a JSON file
     #[arg(long, value_name = "FILE")]
     pub(super) stats: Option<PathBuf>,
+
+    /// Draw again whenever the scene or a file that it uses changes; faults are told and waited out
+    #[arg(long)]
+    pub(super) watch: bool,
 }
 
 /// Print the SHA-256 of a scene's picture in linear light

@@ -38,6 +38,6 @@ fn check_one(renderer: &mut Renderer, scene: &Path, console: &mut Console<'_>) -
 }
 
 /// Everything that a scene may hold.
-fn entities(world: &mut World) -> HashSet<Entity> {
+pub(super) fn entities(world: &mut World) -> HashSet<Entity> {
     world.query_filtered::<Entity, Without<IsResource>>().iter(world).collect()
 }

@@ -29,6 +29,7 @@ mod render;
 mod repro;
 mod stability;
 mod stats;
+mod watch;
 mod why;
 
 pub use stats::{Seconds, Stats};

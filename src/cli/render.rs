@@ -6,6 +6,7 @@ use super::{
     draw::{Drawn, draw},
     machine,
     stats::Stats,
+    watch::watch,
 };
 use crate::Renderer;
 use snell_systems::image::{self, FileError, Format, Metadata, key};
@@ -13,6 +14,15 @@ use std::path::{Path, PathBuf};
 
 /// Draws a scene to a file.
 pub(super) fn render(
+    renderer: &mut Renderer,
+    args: &RenderArguments,
+    console: &mut Console<'_>,
+) -> Result<(), Failure> {
+    if args.watch { watch(renderer, args, console) } else { render_once(renderer, args, console) }
+}
+
+/// Draws a scene to a file, once.
+pub(super) fn render_once(
     renderer: &mut Renderer,
     args: &RenderArguments,
     console: &mut Console<'_>,

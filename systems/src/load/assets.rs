@@ -5,9 +5,10 @@ use super::{
     image,
     obj::{self, Model},
 };
+use bevy_ecs::prelude::*;
 use snell_components::{color::Encoding, texture::Image};
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     fs, io,
     path::{Path, PathBuf},
     sync::Arc,
@@ -30,7 +31,21 @@ pub(super) struct Assets {
     pub(super) notices: Vec<Notice>,
 }
 
+/// The files that the last sound scene was read from: its own and all that it uses.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct UsedFiles(pub BTreeSet<PathBuf>);
+
 impl Assets {
+    /// All files that were read.
+    pub(super) fn files(&self) -> impl Iterator<Item = PathBuf> {
+        let materials = self.models.iter().flat_map(|(_, model)| &model.materials);
+        let of_materials = materials.flat_map(|material| {
+            let library = material.line.iter().map(|line| line.file.to_path_buf());
+            library.chain(material.texture.iter().map(|texture| PathBuf::from(&texture.0)))
+        });
+        self.model_by_file.keys().chain(self.image_by_file.keys()).cloned().chain(of_materials)
+    }
+
     /// The number of the model in a file; `None` if the file was read but has faults, which are noted here.
     ///
     /// # Errors

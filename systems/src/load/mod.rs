@@ -14,6 +14,7 @@ mod scene;
 
 mod format;
 
+pub use assets::UsedFiles;
 pub use fault::{Fault, Faults, Notice, Position, nearest};
 pub use format::format_scene;
 pub(crate) use scene::{LARGEST, MODEL_MARK};

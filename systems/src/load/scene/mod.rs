@@ -23,7 +23,7 @@ mod links;
 mod spawn;
 
 use super::{
-    assets::Assets,
+    assets::{Assets, UsedFiles},
     fault::{Faults, Notice},
 };
 use crate::registry::Registry;
@@ -95,6 +95,8 @@ fn read(world: &mut World, sources: &[Source], mut report: Report) -> Result<Vec
     let ready = spawn::prepare(sources, layout, &stated, wholes);
     spawn::spawn(world, ready, &assets);
     world.insert_resource(settings);
+    let scenes = sources.iter().map(|source| source.path.clone());
+    world.insert_resource(UsedFiles(scenes.chain(assets.files()).collect()));
     Ok(assets.notices)
 }
 
