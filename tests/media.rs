@@ -3,7 +3,7 @@
 use snell::components::math;
 use snell::prelude::*;
 use snell::systems::{
-    render::{Interior, pixel},
+    render::{Forward, Interior, Observer, Way, pixel, pixel_observed},
     snapshot::View,
 };
 
@@ -145,6 +145,74 @@ fn a_dispersing_body_loses_no_light_and_fans_it_out() {
     assert_eq!(counts.transmitted, 8);
     let straight = scene(Settings { refraction: false, ..Settings::default() }, prism);
     assert_eq!(traced(&straight, DVec3::Y * 5.0, DVec3::NEG_Y).1.transmitted, 1);
+}
+
+/// The ways of each wavelength out of the last surface, as rays come to them.
+#[derive(Default)]
+struct Exits(Vec<(f64, DVec3)>);
+
+impl Observer for Exits {
+    fn put_forward(&mut self, ray: &Forward<'_>) {
+        let (Way::Transmitted, Some(wavelength)) = (ray.way, ray.wavelength) else { return };
+        self.0.retain(|(known, _)| *known != wavelength);
+        self.0.push((wavelength, ray.ray.direction));
+    }
+}
+
+/// A prism along z, its edge on top at `(0, 1)`, its other edges at `(±1/2, 0)`: half its angle has the tangent 1/2.
+fn prism(dispersion: Dispersion) -> Snapshot {
+    let at = |x, y| [[x, y, -1.0f32], [x, y, 1.0]];
+    let corners = [at(0.0, 1.0), at(-0.5, 0.0), at(0.5, 0.0)].concat();
+    let sides = [[0, 2, 1], [1, 2, 3], [0, 1, 5], [0, 5, 4], [2, 4, 5], [2, 5, 3], [0, 4, 2], [1, 3, 5]];
+    let mesh = TriangleMesh::new(corners, sides.to_vec()).expect("a prism");
+    scene(Settings::default(), |world| {
+        world.spawn((Mesh::new(mesh), Transmission(Rgb::ONE), Refraction { index: 1.5 }, dispersion));
+    })
+}
+
+#[test]
+fn a_prism_turns_each_wavelength_by_its_own_least_angle() {
+    let dispersion = Dispersion { abbe: 25.0, wavelengths: 6 };
+    let snapshot = prism(dispersion);
+    let half = math::atan2(0.5, 1.0);
+    // How far each wavelength is turned that comes to the middle of the left face at an angle to its normal.
+    let turned = |incidence: f64| {
+        let steep = incidence - half;
+        let (sine, cosine) = math::sin_cos_degrees(steep.to_degrees());
+        let toward = DVec3::new(cosine, sine, 0.0);
+        let eye = DVec3::new(-0.25, 0.5, 0.1) - 3.0 * toward;
+        let view = View { eye, right: DVec3::ZERO, up: DVec3::ZERO, forward: toward };
+        let (mut exits, mut counts) = (Exits::default(), snell::Counts::default());
+        let inside = Interior::around(eye, &snapshot.geometry, &snapshot.materials);
+        let snapshot = Snapshot { view, inside, ..snapshot.clone() };
+        let _ = pixel_observed(&snapshot, 0, 0, &Methods::default(), &mut counts, &mut exits);
+        exits.0.into_iter().map(move |(wavelength, out)| {
+            let along = toward.dot(out);
+            (wavelength, math::atan2(toward.cross(out).length(), along))
+        })
+    };
+    // Cauchy's formula through the index at the line d and Abbe's number.
+    let square = |line: f64| 1.0 / (line * line);
+    let b = 0.5 / (dispersion.abbe * (square(486.13) - square(656.27)));
+    let index = |wavelength: f64| 1.5 + b * (square(wavelength) - square(587.56));
+    let wavelengths: Vec<f64> = turned(half + 0.2).map(|(wavelength, _)| wavelength).collect();
+    assert_eq!(wavelengths.len(), 6);
+    let mut least = vec![];
+    for wavelength in wavelengths {
+        let through = |incidence| turned(incidence).find(|(other, _)| *other == wavelength).expect("the wavelength").1;
+        // Fraunhofer: the way through is symmetric, and the turn `2·asin(n·sin(A/2)) − A`.
+        let sine = index(wavelength) * 0.5 / 1.25f64.sqrt();
+        let incidence = core::f64::consts::FRAC_PI_2 - math::acos(sine);
+        let turn = through(incidence);
+        let expected = 2.0 * incidence - 2.0 * half;
+        assert!((turn - expected).abs() < 1e-12, "{wavelength} nm: {turn}, expected {expected}");
+        for beside in [-0.02, 0.02] {
+            assert!(through(incidence + beside) > turn, "{wavelength} nm: less at {beside}");
+        }
+        least.push((wavelength, turn));
+    }
+    least.sort_by(|a, b| a.0.total_cmp(&b.0));
+    assert!(least.is_sorted_by(|a, b| a.1 > b.1), "short waves are turned most: {least:?}");
 }
 
 #[test]

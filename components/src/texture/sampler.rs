@@ -42,7 +42,7 @@ const MOST_LOOKUPS: f64 = 16.0;
 
 /// How wide the texels of the level are that stands for a width of 1. A lookup between texels and levels blurs, too:
 /// against converged pictures of photographs, drawings and test patterns, on floors and by way of mirrors and glass,
-/// the error is least near 0.7 and a half to double of that for 1 (`tests/minification.rs`).
+/// the error is least near 0.7 (`tests/minification.rs`).
 const WIDTH: f64 = 0.7;
 
 /// The shade of what is not shown: the surface keeps its colour.
