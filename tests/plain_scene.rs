@@ -43,7 +43,7 @@ fn absent_effects_take_no_byte_of_the_snapshot() {
 #[test]
 fn effects_that_nothing_shown_has_change_no_count() {
     let counts =
-        |renderer: &mut Renderer| render(&*renderer.snapshot().expect("a snapshot"), &Options::default()).counts;
+        |renderer: &mut Renderer| render(&renderer.snapshot().expect("a snapshot"), &Options::default()).counts;
     let before = counts(&mut plain());
     let mut rich = plain();
     // Materials of no object: an index that depends on the wavelength, absorption, a filtered texture.

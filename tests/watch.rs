@@ -52,7 +52,13 @@ fn changes_of_the_scene_and_of_what_it_uses_are_drawn_and_faults_waited_out() {
     thread::sleep(Duration::from_millis(600));
     assert!(child.try_wait().expect("asked").is_none(), "a fault ends it");
     desk.put("ball.ron", &including.replace("0.8, 0.2, 0.1", "0.1, 0.2, 0.8"));
-    wait_for(&desk, "the scene after a fault", other(second));
+    let last = wait_for(&desk, "the scene after a fault", other(second));
     child.kill().expect("ended");
     let _ = child.wait();
+    let (code, out, _) = desk.run("hash ball.ron --quiet");
+    assert_eq!(
+        (code, out.split_whitespace().next()),
+        (0, Some(last.as_str())),
+        "what was drawn last is the scene as it is"
+    );
 }
