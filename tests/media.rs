@@ -216,6 +216,24 @@ fn a_prism_turns_each_wavelength_by_its_own_least_angle() {
 }
 
 #[test]
+fn what_fills_a_body_is_its_own_while_each_triangle_lets_its_own_share_through() {
+    // The prism, its two slanted sides of different materials, seen along x at half its height: half a unit of it.
+    let at = |x, y| [[x, y, -1.0f32], [x, y, 1.0]];
+    let corners = [at(0.0, 1.0), at(-0.5, 0.0), at(0.5, 0.0)].concat();
+    let sides = [[0, 2, 1], [1, 2, 3], [0, 1, 5], [0, 5, 4], [2, 4, 5], [2, 5, 3], [0, 4, 2], [1, 3, 5]];
+    let slots = vec![0, 0, 1, 1, 0, 0, 0, 0];
+    let none = (vec![], vec![]);
+    let mesh = TriangleMesh::with_attributes(corners, sides.to_vec(), none, (vec![], vec![]), slots).expect("a prism");
+    let (left_side, right_side) = (Rgb::new(0.5, 1.0, 0.25), Rgb::new(0.5, 0.25, 1.0));
+    let snapshot = scene(Settings::default(), |world| {
+        let materials = [left_side, right_side].map(|share| world.spawn(Transmission(share)).id());
+        world.spawn((Mesh::new(mesh), MaterialSlots(materials.to_vec()), Absorption(TINT)));
+    });
+    let found = seen(&snapshot, DVec3::new(-5.0, 0.5, 0.1), DVec3::X);
+    assert_near(found, left_side * right_side * left(TINT, 0.5));
+}
+
+#[test]
 fn without_refraction_light_goes_straight() {
     let behind = |refraction| {
         let snapshot = scene(Settings { refraction, ..Settings::default() }, |world| {
