@@ -45,6 +45,7 @@ faults! {
     SCALE_IGNORED = 18, a_scale_that_is_ignored: "placement";
     PANICS_WHEN_LARGE = 19, a_panic_at_extreme_values: "extremes";
     FIELD_FORGOTTEN = 20, a_field_that_is_not_read: "text";
+    OTHER_WITHOUT_UV = 21, another_surface_without_texture: "surface";
 }
 
 /// A ball about the origin with a fault.
@@ -142,5 +143,11 @@ impl<const FAULT: u8> Primitive for Broken<FAULT> {
             _ => {}
         }
         surface
+    }
+
+    fn surface_without_uv(packed: &Packed, ray: &Ray, hit: Hit) -> Surface {
+        let surface = Self::surface(packed, ray, hit);
+        let error = if FAULT == OTHER_WITHOUT_UV { surface.error.next_up() } else { surface.error };
+        Surface { error, ..surface }
     }
 }

@@ -50,6 +50,12 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
     /// small part of a pixel and may pass the shape's edge, at the `t` where it crosses the tangent plane.
     fn surface(packed: &Self::Packed, ray: &Ray, hit: Hit) -> Surface;
 
+    /// [`Primitive::surface`] to the last bit, but for the texture coordinates, which may be anything: for a surface on
+    /// which no texture lies. Worth writing where they cost much.
+    fn surface_without_uv(packed: &Self::Packed, ray: &Ray, hit: Hit) -> Surface {
+        Self::surface(packed, ray, hit)
+    }
+
     /// A sphere that holds the shape; by default the one about the bounds.
     fn bounding_sphere(_packed: &Self::Packed, bounds: &Bounds) -> BoundingSphere {
         BoundingSphere::of_bounds(bounds)

@@ -72,6 +72,10 @@ impl<F: Figure> Primitive for F {
         Mesh::surface(packed, ray, hit)
     }
 
+    fn surface_without_uv(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
+        Mesh::surface_without_uv(packed, ray, hit)
+    }
+
     fn bounding_sphere(packed: &PackedMesh, bounds: &Bounds) -> BoundingSphere {
         Mesh::bounding_sphere(packed, bounds)
     }

@@ -14,7 +14,7 @@ use crate::{
 };
 use bevy_ecs::prelude::*;
 use core::ops::Range;
-use glam::{DAffine3, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use std::sync::Arc;
 
 /// Balls on each ball: six around its equator, three above.
@@ -188,18 +188,30 @@ impl Primitive for SphereFlake {
     }
 
     fn surface(packed: &PackedSphereFlake, ray: &Ray, hit: Hit) -> Surface {
-        let (flake, placed) = (&packed.flake, &packed.placed);
-        let Ball { center, radius } = flake.balls[hit.part as usize];
-        let outward = (placed.local(ray).at(hit.t) - center).normalize_or(DVec3::Y);
+        let uv = sphere_uv(packed.outward(ray, hit).1);
+        Surface { uv, ..Self::surface_without_uv(packed, ray, hit) }
+    }
+
+    fn surface_without_uv(packed: &PackedSphereFlake, ray: &Ray, hit: Hit) -> Surface {
+        let placed = &packed.placed;
+        let (Ball { center, radius }, outward) = packed.outward(ray, hit);
         let normal = (placed.object_from_world.matrix3.transpose() * outward).normalize_or(DVec3::Y);
         Surface {
             point: placed.world_from_object.transform_point3(center + outward * radius),
             normal,
             shading_normal: normal,
-            uv: sphere_uv(outward),
+            uv: DVec2::ZERO,
             slot: 0,
             error: placed.error,
         }
+    }
+}
+
+impl PackedSphereFlake {
+    /// The ball that was hit, and the unit vector from its centre to where, object space.
+    fn outward(&self, ray: &Ray, hit: Hit) -> (Ball, DVec3) {
+        let ball = self.flake.balls[hit.part as usize];
+        (ball, (self.placed.local(ray).at(hit.t) - ball.center).normalize_or(DVec3::Y))
     }
 }
 

@@ -189,29 +189,40 @@ impl Primitive for Cone {
     }
 
     fn surface(packed: &PackedCone, ray: &Ray, hit: Hit) -> Surface {
-        let mut local = ray.transformed(&packed.object_from_world).at(hit.t);
+        let local = ray.transformed(&packed.object_from_world).at(hit.t);
         let flat = DVec2::new(local.x, local.z);
-        let (outward, uv) = if hit.part == SIDE {
-            local.y = local.y.clamp(0.0, packed.height);
+        let uv = if hit.part == SIDE {
             let out = flat.normalize_or(DVec2::X);
-            let radius = packed.radius + packed.slope * local.y;
-            (local.x, local.z) = (out.x * radius, out.y * radius);
             let u = 0.5 + math::atan2(-out.y, out.x) / (2.0 * PI);
-            (DVec3::new(out.x, -packed.slope, out.y), DVec2::new(u, local.y / packed.height))
+            DVec2::new(u, local.y.clamp(0.0, packed.height) / packed.height)
         } else {
-            let (y, radius, up) =
-                if hit.part == TOP { (packed.height, packed.top, 1.0) } else { (0.0, packed.radius, -1.0) };
-            local.y = y;
+            let (radius, up) = if hit.part == TOP { (packed.top, 1.0) } else { (packed.radius, -1.0) };
             // Seen from outside, as the top and bottom of a box.
             let unit = if radius > 0.0 { flat / radius } else { DVec2::ZERO };
-            (DVec3::Y * up, DVec2::new(0.5 + 0.5 * unit.x, 0.5 - 0.5 * up * unit.y))
+            DVec2::new(0.5 + 0.5 * unit.x, 0.5 - 0.5 * up * unit.y)
+        };
+        Surface { uv, ..Self::surface_without_uv(packed, ray, hit) }
+    }
+
+    fn surface_without_uv(packed: &PackedCone, ray: &Ray, hit: Hit) -> Surface {
+        let mut local = ray.transformed(&packed.object_from_world).at(hit.t);
+        let outward = if hit.part == SIDE {
+            local.y = local.y.clamp(0.0, packed.height);
+            let out = DVec2::new(local.x, local.z).normalize_or(DVec2::X);
+            let radius = packed.radius + packed.slope * local.y;
+            (local.x, local.z) = (out.x * radius, out.y * radius);
+            DVec3::new(out.x, -packed.slope, out.y)
+        } else {
+            let (y, up) = if hit.part == TOP { (packed.height, 1.0) } else { (0.0, -1.0) };
+            local.y = y;
+            DVec3::Y * up
         };
         let normal = (packed.object_from_world.matrix3.transpose() * outward).normalize_or(DVec3::Y);
         Surface {
             point: packed.world_from_object.transform_point3(local),
             normal,
             shading_normal: normal,
-            uv,
+            uv: DVec2::ZERO,
             slot: 0,
             error: packed.error,
         }

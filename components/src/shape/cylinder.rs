@@ -48,4 +48,8 @@ impl Primitive for Cylinder {
     fn surface(packed: &PackedCone, ray: &Ray, hit: Hit) -> Surface {
         Cone::surface(packed, ray, hit)
     }
+
+    fn surface_without_uv(packed: &PackedCone, ray: &Ray, hit: Hit) -> Surface {
+        Cone::surface_without_uv(packed, ray, hit)
+    }
 }

@@ -289,6 +289,36 @@ struct Placed {
     error: f64,
 }
 
+impl Placed {
+    /// The surface at a hit without texture coordinates, and the weights of the triangle's vertices there.
+    #[inline]
+    fn surface(&self, ray: &Ray, hit: Hit) -> (Surface, [f64; 3]) {
+        let mesh = &*self.mesh;
+        let vertices = self.tree.vertices(hit.part);
+        let [a, b, c] = vertices;
+        let [u, v, w] = RayFrame::new(&ray.transformed(&self.object_from_world)).weights(vertices);
+        let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
+        let normal = (self.cotangent * (b - a).cross(c - a)).normalize_or(DVec3::Y);
+        let normals = match self.shading {
+            Shading::Flat => None,
+            Shading::Smooth => Some(mesh.normals.of(hit.part).map_or_else(
+                || mesh.triangles[hit.part as usize].map(|v| point(mesh.smooth_normals()[v as usize])),
+                |normals| normals.map(DVec3::from_array),
+            )),
+            Shading::AsModelled => mesh.normals.of(hit.part).map(|normals| normals.map(DVec3::from_array)),
+        };
+        let surface = Surface {
+            point: self.world_from_object.transform_point3(blend(vertices)),
+            normal,
+            shading_normal: normals.map_or(normal, |normals| (self.cotangent * blend(normals)).normalize_or(normal)),
+            uv: DVec2::ZERO,
+            slot: mesh.slots.get(hit.part as usize).map_or(0, |&slot| u32::from(slot)),
+            error: self.error,
+        };
+        (surface, [u, v, w])
+    }
+}
+
 impl PackedMesh {
     /// A mesh placed by `world_from_object`.
     ///
@@ -350,36 +380,19 @@ impl Primitive for Mesh {
         packed.placed.mesh.blocks_with(&ray, t_max, with, cost)
     }
 
+    #[inline]
     fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
-        let placed = &*packed.placed;
-        let mesh = &*placed.mesh;
-        let vertices = placed.tree.vertices(hit.part);
-        let [a, b, c] = vertices;
-        let object_ray = ray.transformed(&placed.object_from_world);
-        let [u, v, w] = RayFrame::new(&object_ray).weights(vertices);
-        let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
-        let normal = (placed.cotangent * (b - a).cross(c - a)).normalize_or(DVec3::Y);
-        let normals = match placed.shading {
-            Shading::Flat => None,
-            Shading::Smooth => Some(mesh.normals.of(hit.part).map_or_else(
-                || mesh.triangles[hit.part as usize].map(|v| point(mesh.smooth_normals()[v as usize])),
-                |normals| normals.map(DVec3::from_array),
-            )),
-            Shading::AsModelled => mesh.normals.of(hit.part).map(|normals| normals.map(DVec3::from_array)),
-        };
-        let shading_normal = normals.map_or(normal, |normals| (placed.cotangent * blend(normals)).normalize_or(normal));
-        let uv = match mesh.uvs.of(hit.part) {
+        let (surface, [u, v, w]) = packed.placed.surface(ray, hit);
+        let uv = match packed.placed.mesh.uvs.of(hit.part) {
             Some([a, b, c]) => DVec2::from_array(a) * u + DVec2::from_array(b) * v + DVec2::from_array(c) * w,
             None => DVec2::new(v, w),
         };
-        Surface {
-            point: placed.world_from_object.transform_point3(blend(vertices)),
-            normal,
-            shading_normal,
-            uv,
-            slot: mesh.slots.get(hit.part as usize).map_or(0, |&slot| u32::from(slot)),
-            error: placed.error,
-        }
+        Surface { uv, ..surface }
+    }
+
+    #[inline]
+    fn surface_without_uv(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
+        packed.placed.surface(ray, hit).0
     }
 
     fn bounding_sphere(packed: &PackedMesh, _: &Bounds) -> BoundingSphere {

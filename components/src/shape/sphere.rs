@@ -184,15 +184,24 @@ impl Primitive for Sphere {
     }
 
     fn surface(packed: &PackedSphere, ray: &Ray, hit: Hit) -> Surface {
-        let (point, normal, local) = match &packed.ellipsoid {
+        let surface = Self::surface_without_uv(packed, ray, hit);
+        let local = match &packed.ellipsoid {
+            None => (packed.object_from_world * surface.normal).normalize_or(DVec3::Y),
+            Some(maps) => packed.project(ray.transformed(&maps.object_from_world).at(hit.t)).0,
+        };
+        Surface { uv: sphere_uv(local), ..surface }
+    }
+
+    fn surface_without_uv(packed: &PackedSphere, ray: &Ray, hit: Hit) -> Surface {
+        let (point, normal) = match &packed.ellipsoid {
             None => {
                 let (normal, point) = packed.project(ray.at(hit.t));
-                (point, normal, (packed.object_from_world * normal).normalize_or(DVec3::Y))
+                (point, normal)
             }
             Some(maps) => {
                 let (local, at) = packed.project(ray.transformed(&maps.object_from_world).at(hit.t));
                 let normal = (maps.object_from_world.matrix3.transpose() * local).normalize_or(DVec3::Y);
-                (maps.world_from_object.transform_point3(at), normal, local)
+                (maps.world_from_object.transform_point3(at), normal)
             }
         };
         let reach = packed.center.abs().max_element() + packed.radius;
@@ -201,7 +210,7 @@ impl Primitive for Sphere {
             m.translation.abs().max_element() + packed.radius * largest_axis(&m.matrix3)
         });
         let error = Surface::rounding(reach);
-        Surface { point, normal, shading_normal: normal, uv: sphere_uv(local), slot: 0, error }
+        Surface { point, normal, shading_normal: normal, uv: DVec2::ZERO, slot: 0, error }
     }
 
     fn bounding_sphere(packed: &PackedSphere, bounds: &Bounds) -> BoundingSphere {

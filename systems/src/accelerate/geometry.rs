@@ -60,6 +60,17 @@ struct Spheres {
     runs: Vec<Run>,
 }
 
+/// A surface as it is known with a choice of methods: with shorter numbers as much less surely.
+#[inline]
+fn less_sure(mut surface: Surface, t: f64, ray: &Ray, with: &Methods) -> Surface {
+    if with.precision == Precision::F32 {
+        let travelled = t * ray.direction.length();
+        surface.error += Surface::rounding(surface.point.abs().max_element() + travelled);
+        surface.error *= f64::from(f32::EPSILON) / f64::EPSILON;
+    }
+    surface
+}
+
 impl Geometry {
     /// Builds the tree over the shapes of some pools.
     #[must_use]
@@ -107,19 +118,29 @@ impl Geometry {
         Self { tree, pools, runs, leaf_runs, unbounded, spheres: OnceLock::new() }
     }
 
-    /// Nearest hit with `0 < t <= t_max`; among equally near ones the object first in the order of names.
+    /// [`Geometry::nearest`] with the surface there.
     #[must_use]
     pub fn closest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Intersection> {
         let nearest = self.nearest(ray, t_max, with, cost)?;
+        let surface = self.surface(&nearest, ray, with);
         let Nearest { hit, pool, index, object } = nearest;
-        let mut surface = self.pools[pool as usize].surface(index, ray, hit);
-        if with.precision == Precision::F32 {
-            // As much less sure as the numbers are shorter.
-            let travelled = hit.t * ray.direction.length();
-            surface.error += Surface::rounding(surface.point.abs().max_element() + travelled);
-            surface.error *= f64::from(f32::EPSILON) / f64::EPSILON;
-        }
         Some(Intersection { surface, t: hit.t, object, shape: (pool, index, hit.part) })
+    }
+
+    /// The surface at what [`Geometry::nearest`] found for this ray with these methods.
+    #[must_use]
+    #[inline]
+    pub fn surface(&self, nearest: &Nearest, ray: &Ray, with: &Methods) -> Surface {
+        let Nearest { hit, pool, index, .. } = *nearest;
+        less_sure(self.pools[pool as usize].surface(index, ray, hit), hit.t, ray, with)
+    }
+
+    /// [`Geometry::surface`] but for the texture coordinates, which mean nothing: where no texture asks for them.
+    #[must_use]
+    #[inline]
+    pub fn surface_without_uv(&self, nearest: &Nearest, ray: &Ray, with: &Methods) -> Surface {
+        let Nearest { hit, pool, index, .. } = *nearest;
+        less_sure(self.pools[pool as usize].surface_without_uv(index, ray, hit), hit.t, ray, with)
     }
 
     /// How a surface that was met goes on: where a ray close by, at a distance `t`, crosses its tangent plane.
@@ -129,7 +150,9 @@ impl Geometry {
         self.pools[pool as usize].surface(index, ray, Hit { t, part })
     }
 
-    fn nearest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Nearest> {
+    /// Nearest hit with `0 < t <= t_max`; among equally near ones the object first in the order of names.
+    #[must_use]
+    pub fn nearest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Nearest> {
         if !ray.is_valid() {
             return None;
         }

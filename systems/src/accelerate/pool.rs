@@ -8,7 +8,7 @@ use snell_components::{
 };
 use std::sync::Arc;
 
-/// The nearest hit so far.
+/// Which hit is the nearest: all that a search tells, and all that the surface there is worked out from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Nearest {
     /// Distance and part.
@@ -43,6 +43,9 @@ pub trait ErasedPool: Send + Sync {
 
     /// The surface of a hit.
     fn surface(&self, index: u32, ray: &Ray, hit: Hit) -> Surface;
+
+    /// The same but for the texture coordinates, which mean nothing.
+    fn surface_without_uv(&self, index: u32, ray: &Ray, hit: Hit) -> Surface;
 }
 
 /// A search for the nearest hit.
@@ -134,5 +137,9 @@ impl<P: Primitive> ErasedPool for Pool<P> {
 
     fn surface(&self, index: u32, ray: &Ray, hit: Hit) -> Surface {
         P::surface(&self.shapes[index as usize], ray, hit)
+    }
+
+    fn surface_without_uv(&self, index: u32, ray: &Ray, hit: Hit) -> Surface {
+        P::surface_without_uv(&self.shapes[index as usize], ray, hit)
     }
 }

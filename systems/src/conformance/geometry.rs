@@ -90,6 +90,14 @@ fn check_hit<P: Primitive>(case: &Case<P>, ray: &Ray, hit: Hit, report: &mut Rep
         report.add("surface", &case.name, format!("{ray:?}: {fault}"));
         return;
     }
+    let bare = Surface { uv, ..P::surface_without_uv(&case.packed, ray, hit) };
+    if bare != surface {
+        report.add(
+            "surface",
+            &case.name,
+            format!("{ray:?}: without texture coordinates it is {bare:?}, not {surface:?}"),
+        );
+    }
     check_normal(case, ray, &surface, report);
     check_departure(case, ray, hit, &surface, report);
 }
