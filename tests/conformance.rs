@@ -43,3 +43,33 @@ fn meshes_do() {
     check(&[Mesh::new(Arc::new(bumpy(16, 10, false)))], Form::Closed).assert();
     check(&[Mesh::new(Arc::new(bumpy(12, 9, true))).smooth()], Form::Closed).assert();
 }
+
+#[test]
+fn cones_do() {
+    let cones = [(1.0, 0.0, 2.0), (0.05, 0.0, 3.0), (0.3, 2.0, 0.5), (0.0, 1.0, 1.0), (5.0, 4.9, 0.1)];
+    check(&cones.map(|(radius, top, height)| Cone { radius, top, height }), Form::Closed).assert();
+}
+
+#[test]
+fn cylinders_do() {
+    let cylinders = [(1.0, 2.0), (0.01, 3.0), (4.0, 0.02)];
+    check(&cylinders.map(|(radius, height)| Cylinder { radius, height }), Form::Closed).assert();
+}
+
+#[test]
+fn figures_of_triangles_do() {
+    let profile = [(0.0, 0.0), (0.8, 0.1), (0.4, 0.9), (0.6, 1.5), (0.0, 1.7)];
+    let vase = Lathe { profile: profile.map(DVec2::from).to_vec(), segments: 20, ..Lathe::default() };
+    check(&[vase.clone(), Lathe { shading: Shading::Smooth, ..vase.clone() }], Form::Closed).assert();
+    let ring = [(1.0, 0.0), (1.3, 0.2), (1.0, 0.4), (1.0, 0.0)];
+    check(&[Lathe { profile: ring.map(DVec2::from).to_vec(), ..vase }], Form::Closed).assert();
+    check(&[HeightField { size: DVec3::new(4.0, 1.0, 3.0), cells: 24, ..HeightField::default() }], Form::Open).assert();
+    let arrangements = [Arrangement::Grid, Arrangement::Random];
+    let fields = arrangements.map(|arrangement| TriangleField { count: 200, arrangement, ..TriangleField::default() });
+    check(&fields, Form::Open).assert();
+}
+
+#[test]
+fn sphere_flakes_do() {
+    check(&[0, 2].map(|depth| SphereFlake { radius: 1.5, depth }), Form::Open).assert();
+}

@@ -253,6 +253,7 @@ impl Search<'_> {
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
+    use glam::DMat3;
 
     #[test]
     fn a_flake_larger_than_single_precision_has_no_surface() {
@@ -272,6 +273,31 @@ mod tests {
             let gap = ball.center.distance(parent.center) - ball.radius - parent.radius;
             assert!(gap.abs() < 1e-14, "{n}: {gap}");
         }
+    }
+
+    #[test]
+    fn normals_stand_on_what_touches_the_ball() {
+        let placement =
+            DAffine3::from_mat3(DMat3::from_rotation_x(0.9) * DMat3::from_diagonal(DVec3::new(1.0, 0.4, 1.7)));
+        let (_, packed) = SphereFlake { depth: 3, ..SphereFlake::default() }.pack(&placement).expect("a flake");
+        let mut random = SplitMix64::new(6);
+        let mut point = |reach: f64| DVec3::from_array([(); 3].map(|()| reach * (2.0 * random.unit() - 1.0)));
+        let mut hits = 0;
+        for _ in 0..4000 {
+            let origin = point(6.0);
+            let ray = Ray { origin, direction: point(1.5) - origin };
+            let Some(hit) = SphereFlake::hit(&packed, &ray, f64::INFINITY, &mut Cost::default()) else { continue };
+            hits += 1;
+            let surface = SphereFlake::surface(&packed, &ray, hit);
+            let out =
+                placement.inverse().transform_point3(surface.point) - packed.flake.balls[hit.part as usize].center;
+            let touching = [out.cross(DVec3::X), out.cross(DVec3::Y), out.cross(DVec3::Z)];
+            for tangent in touching.map(|tangent| placement.transform_vector3(tangent).normalize_or_zero()) {
+                let sine = surface.normal.dot(tangent).abs();
+                assert!(sine < 1e-11, "{ray:?}: {sine:e}");
+            }
+        }
+        assert!(hits > 1500, "{hits}");
     }
 
     #[test]

@@ -233,6 +233,7 @@ impl Primitive for Cone {
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
+    use glam::DMat3;
 
     fn packed(radius: f64, top: f64, height: f64, placement: DAffine3) -> PackedCone {
         Cone { radius, top, height }.pack(&placement).expect("a cone").1
@@ -263,6 +264,38 @@ mod tests {
         let huge = Cone { radius: f64::MAX, top: 0.0, height: 1.0 };
         assert!(huge.pack(&DAffine3::from_scale(DVec3::splat(3.0))).is_err());
         assert!(Cone { radius: 1e38, ..huge }.pack(&DAffine3::IDENTITY).is_ok());
+    }
+
+    #[test]
+    fn normals_stand_on_both_tangents() {
+        let sheared = DAffine3::from_mat3(
+            DMat3::from_rotation_x(0.9) * DMat3::from_diagonal(DVec3::new(1.0, 0.4, 1.7)) * DMat3::from_rotation_z(0.5),
+        );
+        let mut random = SplitMix64::new(4);
+        for (radius, top, height) in [(1.0, 0.0, 2.0), (0.05, 0.0, 3.0), (0.3, 2.0, 0.5), (0.01, 0.01, 3.0)] {
+            let cone = packed(radius, top, height, sheared);
+            let mut sides = 0;
+            for _ in 0..2000 {
+                let mut number = |reach: f64| reach * (2.0 * random.unit() - 1.0);
+                let within = DVec3::new(number(radius + top), 0.5 * height + number(height), number(radius + top));
+                let toward = sheared.transform_point3(within);
+                let origin = 5.0 * DVec3::new(number(1.0), number(1.0), number(1.0));
+                let ray = Ray { origin, direction: toward - origin };
+                let Some(hit) = Cone::hit(&cone, &ray, f64::INFINITY, &mut Cost::default()) else { continue };
+                let surface = Cone::surface(&cone, &ray, hit);
+                let local = sheared.inverse().transform_point3(surface.point);
+                // Around the axis and along the side, or two ways in the plane of base and top.
+                let out = DVec3::new(local.x, 0.0, local.z).normalize();
+                let along = out * ((top - radius) / height) + DVec3::Y;
+                let tangents = if hit.part == SIDE { [out.cross(DVec3::Y), along] } else { [DVec3::X, DVec3::Z] };
+                sides += u32::from(hit.part == SIDE);
+                for tangent in tangents.map(|tangent| sheared.transform_vector3(tangent).normalize()) {
+                    let sine = surface.normal.dot(tangent).abs();
+                    assert!(sine < 1e-11, "{radius} {top} {ray:?}: {sine:e}");
+                }
+            }
+            assert!(sides > 400, "{sides}");
+        }
     }
 
     #[test]

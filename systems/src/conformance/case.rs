@@ -1,6 +1,6 @@
 //! A shape in one placement, and the rays that it is tried with.
 
-use super::Report;
+use super::{Report, watch::Watch};
 use crate::render::Key;
 use glam::{DAffine3, DVec3};
 use snell_components::{
@@ -19,6 +19,7 @@ pub(super) struct Case<P: Primitive> {
     pub size: f64,
     /// Maps the shape as it is to this placement.
     pub placed: DAffine3,
+    watch: Watch,
 }
 
 /// Placements that shapes of a size are tried in.
@@ -36,12 +37,13 @@ fn placements(size: f64) -> [(&'static str, Vec<Step>); 6] {
 
 impl<P: Primitive> Case<P> {
     /// The shape in all placements; those that cannot be packed are reported.
-    pub(super) fn all(shape: &P, name: &str, report: &mut Report) -> Vec<Self> {
+    pub(super) fn all(shape: &P, name: &str, watch: &Watch, report: &mut Report) -> Vec<Self> {
         let placed = |(placement, steps)| {
             let name = format!("{name}, {placement}");
             let world_from_object = Transform::new(steps).matrix();
+            watch.asks(&name, None);
             match shape.pack(&world_from_object) {
-                Ok((extent, packed)) => Self::new(name, packed, extent, world_from_object, report),
+                Ok((extent, packed)) => Self::new((name, watch), packed, extent, world_from_object, report),
                 Err(why) => {
                     report.add("pack", &name, format!("cannot be packed: {}", why.0));
                     None
@@ -55,7 +57,13 @@ impl<P: Primitive> Case<P> {
         placements(size).into_iter().filter_map(placed).collect()
     }
 
-    fn new(name: String, packed: P::Packed, extent: Extent, placed: DAffine3, report: &mut Report) -> Option<Self> {
+    fn new(
+        (name, watch): (String, &Watch),
+        packed: P::Packed,
+        extent: Extent,
+        placed: DAffine3,
+        report: &mut Report,
+    ) -> Option<Self> {
         let (bounds, center, size) = match extent {
             Extent::Unbounded => (None, placed.translation, placed.transform_vector3(DVec3::ONE).length()),
             Extent::Bounded(bounds) => {
@@ -68,14 +76,16 @@ impl<P: Primitive> Case<P> {
                 (Some(bounds), 0.5 * (bounds.min + bounds.max), size.max(f64::MIN_POSITIVE))
             }
         };
-        Some(Self { name, packed, bounds, center, size, placed })
+        Some(Self { name, packed, bounds, center, size, placed, watch: watch.clone() })
     }
 
     pub(super) fn hit(&self, ray: &Ray, t_max: f64) -> Option<Hit> {
+        self.watch.asks(&self.name, Some(ray));
         P::hit(&self.packed, ray, t_max, &mut Cost::default())
     }
 
     pub(super) fn surface(&self, ray: &Ray, hit: Hit) -> Surface {
+        self.watch.asks(&self.name, Some(ray));
         P::surface(&self.packed, ray, hit)
     }
 

@@ -1,6 +1,6 @@
 //! Fields: extreme values, and reading from text.
 
-use super::Report;
+use super::{Report, watch::Watch};
 use crate::{
     load::{self, Faults},
     registry::{Kind, Registry},
@@ -15,8 +15,8 @@ use snell_components::{
 };
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-pub(super) fn check<P: Primitive + Clone>(shape: &P, name: &str, report: &mut Report) {
-    check_extremes(shape, name, report);
+pub(super) fn check<P: Primitive + Clone>(shape: &P, name: &str, watch: &Watch, report: &mut Report) {
+    check_extremes(shape, name, watch, report);
     let fields = fields_of(shape.clone());
     if fields.iter().any(|field| field.text.is_none()) {
         // Models and images lie in files; nothing in memory names them.
@@ -170,7 +170,7 @@ fn check_faults<P: Primitive + Clone>(fields: &[Field], name: &str, report: &mut
 }
 
 /// Packs and hits shapes whose numbers are as small and as large as their ranges allow.
-fn check_extremes<P: Primitive + Clone>(shape: &P, name: &str, report: &mut Report) {
+fn check_extremes<P: Primitive + Clone>(shape: &P, name: &str, watch: &Watch, report: &mut Report) {
     let numbers = fields_of(shape.clone()).into_iter().filter(|field| field.is_number);
     for field in numbers {
         let range = field.spec.range;
@@ -181,7 +181,8 @@ fn check_extremes<P: Primitive + Clone>(shape: &P, name: &str, report: &mut Repo
             if shape.check().is_err() {
                 continue;
             }
-            let tried = catch_unwind(AssertUnwindSafe(|| try_extreme(&shape)));
+            let at = format!("{name}, `{}: {value:e}`", field.name);
+            let tried = catch_unwind(AssertUnwindSafe(|| try_extreme(&shape, &at, watch)));
             let what = match tried {
                 Ok(None) => continue,
                 Ok(Some(what)) => what,
@@ -193,7 +194,8 @@ fn check_extremes<P: Primitive + Clone>(shape: &P, name: &str, report: &mut Repo
 }
 
 /// What is wrong with a shape, if anything.
-fn try_extreme<P: Primitive>(shape: &P) -> Option<String> {
+fn try_extreme<P: Primitive>(shape: &P, name: &str, watch: &Watch) -> Option<String> {
+    watch.asks(name, None);
     // A reason why there is nothing to hit is as good as something to hit.
     let (extent, packed) = shape.pack(&DAffine3::IDENTITY).ok()?;
     let target = match extent {
@@ -204,6 +206,7 @@ fn try_extreme<P: Primitive>(shape: &P) -> Option<String> {
     for direction in [DVec3::X, DVec3::NEG_Y, DVec3::Z, DVec3::new(0.6, -0.64, 0.48)] {
         for origin in [target - direction * 5.0, target] {
             let ray = Ray { origin, direction };
+            watch.asks(name, Some(&ray));
             let Some(hit) = P::hit(&packed, &ray, f64::INFINITY, &mut Cost::default()) else { continue };
             if !(hit.t > 0.0 && hit.t.is_finite()) {
                 return Some(format!("is hit at {}", hit.t));

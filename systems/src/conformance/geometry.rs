@@ -114,7 +114,7 @@ fn check_normal<P: Primitive>(case: &Case<P>, ray: &Ray, surface: &Surface, repo
     // Steps are as small as rounding allows: the smaller, the less is in reach beside the surface at hand.
     let least = 64.0 * f64::EPSILON * (ray.origin.abs().max_element() + case.center.abs().max_element() + case.size);
     let mut best: Option<(f64, DVec3)> = None;
-    for share in [1e-3, 1e-4, 1e-5] {
+    for share in [1e-3, 1e-4, 1e-5, 1e-6] {
         let step = (share * case.size).max(least / NORMAL_TOLERANCE);
         let neighbour = |offset: DVec3| {
             let ray = Ray { origin: ray.origin + offset, direction: ray.direction };
@@ -124,10 +124,14 @@ fn check_normal<P: Primitive>(case: &Case<P>, ray: &Ray, surface: &Surface, repo
         };
         let [right, left] = [u * step, -u * step].map(neighbour);
         let [above, below] = [v * step, -v * step].map(neighbour);
-        // Beside an edge, one corner at least has its three points on one side of it.
+        // From one side to the other the bend of the surface cancels. Beside an edge, one corner at least has its three
+        // points on one side of it.
+        let here = Some(surface.point);
         let corners = [(right, above), (right, below), (left, above), (left, below)];
-        for (a, b) in corners.into_iter().filter_map(|(a, b)| a.zip(b)) {
-            let Some(found) = (a - surface.point).cross(b - surface.point).try_normalize() else { continue };
+        let along = corners.map(|(a, b)| (here, a, here, b));
+        for (from, a, back, b) in [(left, right, below, above)].into_iter().chain(along) {
+            let ways = from.zip(a).map(|(from, to)| to - from).zip(back.zip(b).map(|(from, to)| to - from));
+            let Some(found) = ways.and_then(|(u, v)| u.cross(v).try_normalize()) else { continue };
             let sine = found.cross(surface.normal).length();
             if sine < NORMAL_TOLERANCE {
                 return;

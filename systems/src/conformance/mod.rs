@@ -21,6 +21,7 @@
 //! | `parity` | for closed shapes: a ray enters and leaves in turn, outward normals tell which |
 //! | `leak` | for closed shapes: no ray from inside gets out unseen, none slips through at a silhouette |
 //! | `placement` | scaled or moved, the shape is hit at the scaled or moved place |
+//! | `ends` | every answer comes: none takes a minute |
 //! | `extremes` | the least and greatest values of every number give a shape, or an error, never a panic |
 //! | `text` | its fields can be read from a scene file as they were written |
 //! | `faults` | misspelt, missing and wrong fields are told with their place |
@@ -29,10 +30,12 @@ mod case;
 mod closed;
 mod fields;
 mod geometry;
+mod watch;
 
 use case::Case;
 use snell_components::primitive::Primitive;
 use std::fmt;
+use watch::{PATIENCE, Watch, watched};
 
 /// Whether a shape has an inside.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -101,10 +104,15 @@ impl Report {
 
 /// Checks shapes of one type; give as many as differ in what may go wrong.
 pub fn check<P: Primitive + Clone>(shapes: &[P], form: Form) -> Report {
+    let shapes = shapes.to_vec();
+    watched(PATIENCE, move |watch| check_all(&shapes, form, watch))
+}
+
+fn check_all<P: Primitive + Clone>(shapes: &[P], form: Form, watch: &Watch) -> Report {
     let mut report = Report::default();
     for (number, shape) in shapes.iter().enumerate() {
         let name = if shapes.len() == 1 { P::TAG.to_owned() } else { format!("{} {}", P::TAG, number + 1) };
-        let cases = Case::all(shape, &name, &mut report);
+        let cases = Case::all(shape, &name, watch, &mut report);
         for case in &cases {
             geometry::check(case, &mut report);
             if form == Form::Closed {
@@ -112,7 +120,7 @@ pub fn check<P: Primitive + Clone>(shapes: &[P], form: Form) -> Report {
             }
         }
         geometry::check_placements(&cases, &mut report);
-        fields::check(shape, &name, &mut report);
+        fields::check(shape, &name, watch, &mut report);
     }
     report
 }
