@@ -8,17 +8,11 @@ use snell::{
 };
 
 /// `Disk(radius: 1)`: a flat disk in the plane Oxz.
-#[derive(Component, Clone, Default)]
+#[derive(Component, Clone, Default, Describe)]
 struct Disk {
+    /// Radius, object units.
+    #[describe(within(0.0, 1e9), required)]
     radius: f64,
-}
-
-impl Describe for Disk {
-    const TAG: &'static str = "Disk";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("radius", Value::Number(&mut self.radius), Spec::within(0.0, 1e9, "object units").required());
-    }
 }
 
 #[derive(Clone)]

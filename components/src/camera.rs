@@ -1,7 +1,7 @@
 //! The camera: a pinhole before a screen; how it is moved and turned.
 
 use crate::{
-    describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    describe::{Describe, Fault},
     math,
     transform::Step,
 };
@@ -12,21 +12,27 @@ use smallvec::SmallVec;
 /// A pinhole camera: rays start at the position and pass through the centres of the screen's pixels.
 ///
 /// Without `target` and `direction` it looks along −z of its object space.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
+#[describe(check = Self::agrees)]
 pub struct Camera {
     /// The pinhole, object space.
+    #[describe(required)]
     pub position: DVec3,
     /// A point in the middle of the picture, object space.
     pub target: Option<DVec3>,
     /// The way the camera looks, object space; in place of `target`.
+    #[describe(nonzero)]
     pub direction: Option<DVec3>,
     /// The way that is up in the picture, object space; need not be perpendicular to the view.
+    #[describe(nonzero)]
     pub up: DVec3,
     /// Degrees by which the camera is turned about its view, clockwise seen from behind: the picture turns the other way.
     pub roll: f64,
-    /// Vertical angle of view in degrees.
+    /// Vertical angle of view, degrees.
+    #[describe(positive, at_most(179.9))]
     pub field_of_view: f64,
     /// Distance of the screen in screen heights; in place of `field_of_view`, which is `2·atan(1 / 2d)`.
+    #[describe(positive)]
     pub screen_distance: Option<f64>,
     /// How it moves and turns from there, as [`Camera::step`] does, the first step first.
     pub moves: SmallVec<[Step; 4]>,
@@ -47,27 +53,9 @@ impl Default for Camera {
     }
 }
 
-impl Describe for Camera {
-    const TAG: &'static str = "Camera";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("position", Value::Vector(&mut self.position), Spec::any("the pinhole").required());
-        fields.field("target", Value::OptionalVector(&mut self.target), Spec::any("a point in the picture's middle"));
-        fields.field("direction", Value::OptionalVector(&mut self.direction), Spec::any("the way it looks").nonzero());
-        fields.field("up", Value::Vector(&mut self.up), Spec::any("the way that is up").nonzero());
-        fields.field("roll", Value::Number(&mut self.roll), Spec::any("turn about the view, degrees clockwise"));
-        let fov = Spec {
-            range: crate::describe::Range { min: 0.0, max: 179.9, min_inclusive: false },
-            ..Spec::any("vertical angle of view, degrees")
-        };
-        fields.field("field_of_view", Value::Number(&mut self.field_of_view), fov);
-        let distance = Spec::positive("distance of the screen in screen heights; in place of field_of_view");
-        fields.field("screen_distance", Value::OptionalNumber(&mut self.screen_distance), distance);
-        let moves = Spec::any("steps from there in its own axes: x right, y up, z back");
-        fields.field("moves", Value::Steps(&mut self.moves), moves);
-    }
-
-    fn check(&self) -> Result<(), Fault> {
+impl Camera {
+    /// Whether the fields go together.
+    fn agrees(&self) -> Result<(), Fault> {
         if self.target.is_some() && self.direction.is_some() {
             return Err(Fault::new("direction", "either `target` or `direction`, not both"));
         }

@@ -1,11 +1,14 @@
 //! One description of a component's fields, for scene files, editors and bindings.
 //!
 //! A component names each of its fields once, with its range and meaning; whoever visits the description reads, writes
-//! or shows the fields without knowing the type.
+//! or shows the fields without knowing the type. `#[derive(Describe)]` makes it of the struct: its types, the doc comments
+//! of its fields, and attributes for what holds for them; see [`snell_derive`].
 
 use crate::{asset::Asset, color::Rgb, shape::TriangleMesh, texture::Image, transform::Step};
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
+
+pub use snell_derive::Describe;
 
 /// A component with named fields.
 ///
@@ -202,6 +205,12 @@ impl Spec {
     pub const fn positive(about: &'static str) -> Self {
         let range = Range { min: 0.0, max: f64::MAX, min_inclusive: false };
         Self { range, required: false, nonzero: false, about }
+    }
+
+    /// Numbers up to `max`, itself allowed.
+    #[must_use]
+    pub const fn at_most(self, max: f64) -> Self {
+        Self { range: Range { max, ..self.range }, ..self }
     }
 
     /// The field must be given.

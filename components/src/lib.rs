@@ -31,6 +31,12 @@
 //! | [`figure`] | shapes made of many triangles or spheres by a rule; [`random`] their numbers |
 //! | [`material`], [`texture`], [`light`], [`camera`], [`settings`] | what the rays meet and how the picture is taken |
 
+// What `derive(Describe)` makes names things as a crate that uses Snell does.
+extern crate self as snell;
+mod components {
+    pub(crate) use crate::describe;
+}
+
 pub mod math;
 
 pub mod space;

@@ -82,11 +82,13 @@ effect!(
 );
 
 /// `ks` and `p`: the highlight that a light leaves on the surface (Phong).
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Describe)]
 pub struct Highlight {
-    /// `ks`, linear RGB.
+    /// `ks`, brightness of the highlight, linear RGB.
+    #[describe(not_negative, required)]
     pub strength: Rgb,
-    /// `p`, 1 (wide) to 200 and beyond (small).
+    /// `p`, from 1, wide, to 200 and beyond, small.
+    #[describe(within(0.0, 1e6))]
     pub exponent: f64,
 }
 
@@ -96,21 +98,11 @@ impl Default for Highlight {
     }
 }
 
-impl Describe for Highlight {
-    const TAG: &'static str = "Highlight";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let strength = Spec::not_negative("brightness of the highlight, linear RGB").required();
-        fields.field("strength", Value::Color(&mut self.strength), strength);
-        let exponent = Spec::within(0.0, 1e6, "from 1, wide, to 200 and beyond, small");
-        fields.field("exponent", Value::Number(&mut self.exponent), exponent);
-    }
-}
-
 /// Bends what [`Transmission`] lets through by Snell's law; nothing passes beyond the critical angle.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Describe)]
 pub struct Refraction {
-    /// Index inside the body; where no body is it is 1.
+    /// Refractive index inside the body; where no body is it is 1.
+    #[describe(positive, required)]
     pub index: f64,
 }
 
@@ -120,22 +112,15 @@ impl Default for Refraction {
     }
 }
 
-impl Describe for Refraction {
-    const TAG: &'static str = "Refraction";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("index", Value::Number(&mut self.index), Spec::positive("refractive index inside").required());
-    }
-}
-
 /// A clear body that splits light by Fresnel's equations: of `part = 1 − ka − kd − ks` the share `F` is mirrored and
 /// `1 − F` refracted; all of it is mirrored beyond the critical angle, and where the index exceeds
 /// [`Dielectric::OPAQUE_INDEX`].
 ///
 /// Takes the place of [`Mirror`], [`Transmission`] and [`Refraction`].
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Describe)]
 pub struct Dielectric {
-    /// Index inside the body; where no body is it is 1.
+    /// Refractive index inside the body; where no body is it is 1.
+    #[describe(positive, required)]
     pub index: f64,
 }
 
@@ -150,19 +135,15 @@ impl Default for Dielectric {
     }
 }
 
-impl Describe for Dielectric {
-    const TAG: &'static str = "Dielectric";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("index", Value::Number(&mut self.index), Spec::positive("refractive index inside").required());
-    }
-}
-
 /// `δ`: how strongly a clear body swallows light; of the light that goes a distance R inside, `exp(−δ·R)` is left.
 ///
 /// It belongs to the whole body, and needs no [`Refraction`]: without, light goes straight.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
-pub struct Absorption(pub Rgb);
+#[derive(Component, Clone, Copy, Debug, PartialEq, Describe)]
+pub struct Absorption(
+    /// Share swallowed per world unit, as `exp(−δ·R)`; linear RGB.
+    #[describe(name = "coefficient", not_negative, required)]
+    pub Rgb,
+);
 
 impl Default for Absorption {
     fn default() -> Self {
@@ -170,23 +151,16 @@ impl Default for Absorption {
     }
 }
 
-impl Describe for Absorption {
-    const TAG: &'static str = "Absorption";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let spec = Spec::not_negative("share swallowed per world unit, as exp(−δ·R), linear RGB").required();
-        fields.field("coefficient", Value::Color(&mut self.0), spec);
-    }
-}
-
 /// Makes the index of a [`Refraction`] or [`Dielectric`] depend on the wavelength: white light fans out into colours.
 ///
 /// The index follows Cauchy's formula `n(λ) = A + B/λ²` with the given index at 587.6 nm (the Fraunhofer line d).
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Describe)]
 pub struct Dispersion {
     /// Abbe number `(n_d − 1) / (n_F − n_C)`: 20 (flint, much) to 85 (crown, little).
+    #[describe(within(1.0, 1e6), about = "Abbe number, from 20, much dispersion, to 85, little")]
     pub abbe: f64,
     /// Into how many wavelengths a white ray is split.
+    #[describe(within(2.0, 64.0))]
     pub wavelengths: u32,
 }
 
@@ -196,50 +170,26 @@ impl Default for Dispersion {
     }
 }
 
-impl Describe for Dispersion {
-    const TAG: &'static str = "Dispersion";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let abbe = Spec::within(1.0, 1e6, "Abbe number, from 20, much dispersion, to 85, little");
-        fields.field("abbe", Value::Number(&mut self.abbe), abbe);
-        let wavelengths = Spec::within(2.0, 64.0, "into how many wavelengths a white ray is split");
-        fields.field("wavelengths", Value::Integer(&mut self.wavelengths), wavelengths);
-    }
-}
-
 /// Which of several clear bodies counts where they overlap: the one of highest rank; of equal ones that which the ray
 /// entered last, so that a body inside another needs no rank.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
-pub struct MediumRank(pub f64);
-
-impl Describe for MediumRank {
-    const TAG: &'static str = "MediumRank";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let spec = Spec::any("the higher one counts where clear bodies overlap").required();
-        fields.field("rank", Value::Number(&mut self.0), spec);
-    }
-}
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Describe)]
+pub struct MediumRank(
+    /// The higher one counts where clear bodies overlap.
+    #[describe(name = "rank", required)]
+    pub f64,
+);
 
 /// Alpha blending: the result is `α·A + (1 − α)·B`, `A` the surface's own light with all its other effects and `B` what
 /// lies straight behind.
-#[derive(Component, Clone, Copy, Debug, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, PartialEq, Describe)]
 pub struct Opacity {
     /// 0, nothing to see, to 1, nothing shows through.
+    #[describe(within(0.0, 1.0), required)]
     pub alpha: f64,
 }
 
 impl Default for Opacity {
     fn default() -> Self {
         Self { alpha: 1.0 }
-    }
-}
-
-impl Describe for Opacity {
-    const TAG: &'static str = "Opacity";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let spec = Spec::within(0.0, 1.0, "0: nothing to see, 1: nothing shows through").required();
-        fields.field("alpha", Value::Number(&mut self.alpha), spec);
     }
 }

@@ -4,7 +4,7 @@
 //! and one registration call; nothing else names it.
 
 use crate::{
-    describe::Describe,
+    describe::{Describe, Fault},
     method::Methods,
     space::{BoundingSphere, Bounds, Ray},
 };
@@ -74,6 +74,12 @@ pub enum Extent {
 /// Why a shape has no surface.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Degenerate(pub String);
+
+impl From<Fault> for Degenerate {
+    fn from(Fault { field, expected }: Fault) -> Self {
+        Self(format!("its {field}: expected {expected}"))
+    }
+}
 
 /// Where a ray met a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]

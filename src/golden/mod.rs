@@ -169,6 +169,7 @@ impl Golden {
     ///
     /// # Panics
     /// If the picture is not as like as it should be, with what is different and what to do.
+    #[track_caller]
     pub fn assert(&self, source: &mut (impl Source + ?Sized)) {
         let bless = Bless::from_env(env::var("SNELL_BLESS").ok().as_deref(), env::var_os("CI").is_some());
         if let Err(why) = bless.and_then(|bless| self.check(source, &bless)) {

@@ -5,7 +5,7 @@
 
 use super::{Figure, MAX_TRIANGLES};
 use crate::{
-    describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    describe::{Describe, Fault},
     math,
     random::SplitMix64,
     shape::{MeshError, Shading, TriangleMesh},
@@ -14,15 +14,20 @@ use bevy_ecs::prelude::*;
 use glam::DVec3;
 
 /// Hills over a rectangle about the origin.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
+#[describe(check = Self::agrees)]
 pub struct HeightField {
     /// Width, greatest height and depth, object units.
+    #[describe(positive, required)]
     pub size: DVec3,
     /// Squares along either side; each is two triangles.
+    #[describe(within(1.0, 2048.0))]
     pub cells: u32,
     /// Hills along either side.
+    #[describe(within(0.5, 1024.0))]
     pub hills: f64,
-    /// What every wave has of the height of the one that is twice as wide.
+    /// Height of each wave over that of the one twice as wide.
+    #[describe(within(0.0, 1.0))]
     pub roughness: f64,
     /// Chooses the hills.
     pub seed: u32,
@@ -36,21 +41,9 @@ impl Default for HeightField {
     }
 }
 
-impl Describe for HeightField {
-    const TAG: &'static str = "HeightField";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let size = Spec::positive("width, greatest height and depth, object units").required();
-        fields.field("size", Value::Vector(&mut self.size), size);
-        fields.field("cells", Value::Integer(&mut self.cells), Spec::within(1.0, 2048.0, "squares along either side"));
-        fields.field("hills", Value::Number(&mut self.hills), Spec::within(0.5, 1024.0, "hills along either side"));
-        let roughness = Spec::within(0.0, 1.0, "height of each wave over that of the one twice as wide");
-        fields.field("roughness", Value::Number(&mut self.roughness), roughness);
-        fields.field("seed", Value::Integer(&mut self.seed), Spec::any("chooses the hills"));
-        fields.field("smooth", Value::Bool(&mut self.smooth), Spec::any("whether the triangles are smoothed"));
-    }
-
-    fn check(&self) -> Result<(), Fault> {
+impl HeightField {
+    /// Whether the fields go together.
+    fn agrees(&self) -> Result<(), Fault> {
         if 2 * u64::from(self.cells) * u64::from(self.cells) > MAX_TRIANGLES {
             return Err(Fault::new("cells", format!("at most 2048, for {MAX_TRIANGLES} triangles")));
         }

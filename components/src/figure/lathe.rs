@@ -6,7 +6,7 @@
 
 use super::{Figure, MAX_TRIANGLES};
 use crate::{
-    describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    describe::{Describe, Fault},
     math,
     shape::{MeshError, Shading, TriangleMesh},
 };
@@ -14,11 +14,14 @@ use bevy_ecs::prelude::*;
 use glam::{DVec2, DVec3};
 
 /// A profile turned about Oy.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
+#[describe(check = Self::agrees)]
 pub struct Lathe {
-    /// Points as distance from the axis, zero or more, and height; object units.
+    /// Points (distance from Oy, height), up the outside; object units.
+    #[describe(required)]
     pub profile: Vec<DVec2>,
-    /// Steps around the axis.
+    /// Steps around Oy.
+    #[describe(within(3.0, 65_536.0))]
     pub segments: u32,
     /// Which edges are smoothed: as modelled, those around the axis; smooth, those along the profile too.
     pub shading: Shading,
@@ -30,18 +33,9 @@ impl Default for Lathe {
     }
 }
 
-impl Describe for Lathe {
-    const TAG: &'static str = "Lathe";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let profile = Spec::any("points (distance from Oy, height), up the outside").required();
-        fields.field("profile", Value::Vectors2(&mut self.profile), profile);
-        fields.field("segments", Value::Integer(&mut self.segments), Spec::within(3.0, 65_536.0, "steps around Oy"));
-        let shading = Spec::any("which edges are smoothed: those around the axis, none, or all");
-        fields.field("shading", Value::Choice(&mut self.shading), shading);
-    }
-
-    fn check(&self) -> Result<(), Fault> {
+impl Lathe {
+    /// Whether the fields go together.
+    fn agrees(&self) -> Result<(), Fault> {
         let fault = |expected: String| Err(Fault::new("profile", expected));
         if self.profile.len() < 2 {
             return fault(format!("two points or more, found {}", self.profile.len()));

@@ -149,7 +149,7 @@ impl Primitive for SphereFlake {
         if self.depth > MAX_DEPTH {
             return Err(Degenerate(format!("its depth is more than {MAX_DEPTH}: {}", self.depth)));
         }
-        let flake = shared(self, || Ok(Flake::new(self.balls())))?;
+        let flake = shared(self, || Ok::<_, Degenerate>(Flake::new(self.balls())))?;
         let bounds = flake.bounds.transformed(world_from_object);
         let placed = Placed {
             object_from_world: world_from_object.inverse(),

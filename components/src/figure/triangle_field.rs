@@ -7,7 +7,7 @@
 use super::{Figure, MAX_TRIANGLES};
 use crate::{
     choice,
-    describe::{Describe, FieldVisitor, Spec, Value},
+    describe::Describe,
     math,
     random::SplitMix64,
     shape::{MeshError, TriangleMesh},
@@ -27,15 +27,18 @@ choice! {
 }
 
 /// Many separate triangles.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct TriangleField {
-    /// How many.
+    /// How many triangles.
+    #[describe(within(1.0, MAX_TRIANGLES as f64), required)]
     pub count: u32,
     /// Edge of the cell that each has to itself, object units; the cube has the least whole number of cells along an edge.
+    #[describe(positive)]
     pub spacing: f64,
     /// Edge of a triangle, object units.
+    #[describe(positive)]
     pub size: f64,
-    /// Where they are.
+    /// On the grid of cells, or anywhere at random.
     pub arrangement: Arrangement,
     /// Chooses their turns and, if strewn, their places.
     pub seed: u32,
@@ -44,20 +47,6 @@ pub struct TriangleField {
 impl Default for TriangleField {
     fn default() -> Self {
         Self { count: 1000, spacing: 1.0, size: 0.5, arrangement: Arrangement::Grid, seed: 0 }
-    }
-}
-
-impl Describe for TriangleField {
-    const TAG: &'static str = "TriangleField";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let count = Spec::within(1.0, MAX_TRIANGLES as f64, "how many triangles").required();
-        fields.field("count", Value::Integer(&mut self.count), count);
-        fields.field("spacing", Value::Number(&mut self.spacing), Spec::positive("edge of a cell, object units"));
-        fields.field("size", Value::Number(&mut self.size), Spec::positive("edge of a triangle, object units"));
-        let arrangement = Spec::any("on the grid of cells, or anywhere at random");
-        fields.field("arrangement", Value::Choice(&mut self.arrangement), arrangement);
-        fields.field("seed", Value::Integer(&mut self.seed), Spec::any("chooses turns and places"));
     }
 }
 

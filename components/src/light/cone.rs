@@ -1,12 +1,7 @@
 //! `ConeLight(position: (0, 5, 0), direction: (0, -1, 0), angle: 30)`: a light that shines into a cone.
 
 use super::{Illumination, Lamp, Light};
-use crate::{
-    choice,
-    color::Rgb,
-    describe::{Describe, FieldVisitor, Range, Spec, Value},
-    math,
-};
+use crate::{choice, color::Rgb, describe::Describe, math};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
 
@@ -22,17 +17,20 @@ choice! {
 }
 
 /// A light that shines from one point into a cone and nowhere else.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct ConeLight {
     /// The apex, object space.
     pub position: DVec3,
     /// The axis, the way the light goes, object space; any length but zero.
+    #[describe(nonzero)]
     pub direction: DVec3,
-    /// Angle between axis and edge, in degrees, up to 180; the edge itself is lit.
+    /// Angle between axis and edge, degrees; the edge itself is lit.
+    #[describe(positive, at_most(180.0))]
     pub angle: f64,
     /// How the light falls off toward the edge.
     pub fall_off: FallOff,
     /// On the axis, linear RGB.
+    #[describe(not_negative)]
     pub intensity: Rgb,
     /// Whether things cast shadows in this light.
     pub shadows: bool,
@@ -48,22 +46,6 @@ impl Default for ConeLight {
             intensity: Rgb::ONE,
             shadows: true,
         }
-    }
-}
-
-impl Describe for ConeLight {
-    const TAG: &'static str = "ConeLight";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("position", Value::Vector(&mut self.position), Spec::any("the apex, object space"));
-        let direction = Spec::any("the axis, the way the light goes, object space").nonzero();
-        fields.field("direction", Value::Vector(&mut self.direction), direction);
-        let range = Range { min: 0.0, max: 180.0, min_inclusive: false };
-        let angle = Spec { range, ..Spec::any("angle between axis and edge, degrees") };
-        fields.field("angle", Value::Number(&mut self.angle), angle);
-        fields.field("fall_off", Value::Choice(&mut self.fall_off), Spec::any("toward the edge"));
-        fields.field("intensity", Value::Color(&mut self.intensity), Spec::not_negative("on the axis, linear RGB"));
-        fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows in it"));
     }
 }
 

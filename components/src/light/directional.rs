@@ -1,19 +1,18 @@
 //! `DirectionalLight(direction: (-1, -2, -1))`: a light so far away that its rays are parallel.
 
 use super::{Illumination, Lamp, Light};
-use crate::{
-    color::Rgb,
-    describe::{Describe, FieldVisitor, Spec, Value},
-};
+use crate::{color::Rgb, describe::Describe};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// A light so far away that its rays are parallel.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct DirectionalLight {
     /// The way the light goes, object space; any length but zero.
+    #[describe(required, nonzero)]
     pub direction: DVec3,
     /// Linear RGB.
+    #[describe(not_negative)]
     pub intensity: Rgb,
     /// Whether things cast shadows in this light.
     pub shadows: bool,
@@ -22,17 +21,6 @@ pub struct DirectionalLight {
 impl Default for DirectionalLight {
     fn default() -> Self {
         Self { direction: DVec3::NEG_Y, intensity: Rgb::ONE, shadows: true }
-    }
-}
-
-impl Describe for DirectionalLight {
-    const TAG: &'static str = "DirectionalLight";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let about = "the way the light goes, object space";
-        fields.field("direction", Value::Vector(&mut self.direction), Spec::any(about).required().nonzero());
-        fields.field("intensity", Value::Color(&mut self.intensity), Spec::not_negative("linear RGB"));
-        fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows in it"));
     }
 }
 

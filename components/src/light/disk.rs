@@ -1,12 +1,7 @@
 //! `DiskLight(position: (0, 5, 0), radius: 1)`: a disk that shines to one side; its shadows are soft.
 
 use super::{Illumination, Lamp, Light, Sampling};
-use crate::{
-    choice,
-    color::Rgb,
-    describe::{Describe, FieldVisitor, Spec, Value},
-    math,
-};
+use crate::{choice, color::Rgb, describe::Describe, math};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
 
@@ -27,21 +22,26 @@ choice! {
 /// without radius is a point light. `Radiant`: the intensity is a radiance, and what arrives falls with the cosine at
 /// the disk and the square of the distance; on the axis at distance h a surface that faces the disk receives
 /// `π·r² / (r² + h²)` of it.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct DiskLight {
     /// Centre, object space.
     pub position: DVec3,
     /// The side that shines, object space; by default downward, so that the disk is parallel to Oxz.
+    #[describe(nonzero)]
     pub direction: DVec3,
     /// Object units; a placement that scales unevenly makes the disk an ellipse.
+    #[describe(not_negative, required)]
     pub radius: f64,
     /// Linear RGB.
+    #[describe(not_negative)]
     pub intensity: Rgb,
     /// How the disk shines.
     pub emission: Emission,
     /// Standard error at which sampling ends, as a share of the intensity.
+    #[describe(not_negative)]
     pub error: f64,
     /// Samples at most.
+    #[describe(within(1.0, 1_048_576.0))]
     pub samples: u32,
     /// Whether things cast shadows in this light.
     pub shadows: bool,
@@ -59,24 +59,6 @@ impl Default for DiskLight {
             samples: 1024,
             shadows: true,
         }
-    }
-}
-
-impl Describe for DiskLight {
-    const TAG: &'static str = "DiskLight";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("position", Value::Vector(&mut self.position), Spec::any("centre, object space"));
-        let direction = Spec::any("the side that shines, object space").nonzero();
-        fields.field("direction", Value::Vector(&mut self.direction), direction);
-        fields.field("radius", Value::Number(&mut self.radius), Spec::not_negative("object units").required());
-        fields.field("intensity", Value::Color(&mut self.intensity), Spec::not_negative("linear RGB"));
-        fields.field("emission", Value::Choice(&mut self.emission), Spec::any("how the disk shines"));
-        let error = Spec::not_negative("standard error at which sampling ends, share of the intensity");
-        fields.field("error", Value::Number(&mut self.error), error);
-        let samples = Spec::within(1.0, 1_048_576.0, "samples at most");
-        fields.field("samples", Value::Integer(&mut self.samples), samples);
-        fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows in it"));
     }
 }
 

@@ -1,19 +1,18 @@
 //! `PointLight(position: (0, 5, 0))`: a light that shines from one point in all directions.
 
 use super::{Illumination, Lamp, Light};
-use crate::{
-    color::Rgb,
-    describe::{Describe, FieldVisitor, Spec, Value},
-};
+use crate::{color::Rgb, describe::Describe};
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// A light that shines from one point in all directions.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct PointLight {
     /// Object space.
+    #[describe(required)]
     pub position: DVec3,
     /// Linear RGB.
+    #[describe(not_negative)]
     pub intensity: Rgb,
     /// Whether things cast shadows in this light.
     pub shadows: bool,
@@ -22,16 +21,6 @@ pub struct PointLight {
 impl Default for PointLight {
     fn default() -> Self {
         Self { position: DVec3::ZERO, intensity: Rgb::ONE, shadows: true }
-    }
-}
-
-impl Describe for PointLight {
-    const TAG: &'static str = "PointLight";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("position", Value::Vector(&mut self.position), Spec::any("object space"));
-        fields.field("intensity", Value::Color(&mut self.intensity), Spec::not_negative("linear RGB"));
-        fields.field("shadows", Value::Bool(&mut self.shadows), Spec::any("whether things cast shadows in it"));
     }
 }
 

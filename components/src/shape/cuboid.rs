@@ -3,7 +3,7 @@
 //! Each face carries the whole image: u and v run 0..=1 over it, upright on the four sides.
 
 use crate::{
-    describe::{Describe, FieldVisitor, Spec, Value},
+    describe::Describe,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{Bounds, Ray},
 };
@@ -11,23 +11,17 @@ use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// A box about the origin of its object space (tag `Box`).
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
+#[describe(tag = "Box")]
 pub struct Cuboid {
-    /// Edge lengths, object units, each more than zero.
+    /// Edge lengths, object units.
+    #[describe(positive, required)]
     pub size: DVec3,
 }
 
 impl Default for Cuboid {
     fn default() -> Self {
         Self { size: DVec3::ONE }
-    }
-}
-
-impl Describe for Cuboid {
-    const TAG: &'static str = "Box";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("size", Value::Vector(&mut self.size), Spec::positive("edge lengths, object units").required());
     }
 }
 

@@ -3,7 +3,7 @@
 //! Texture coordinates are the object-space x and −z, so an image repeats once per object unit.
 
 use crate::{
-    describe::{Describe, FieldVisitor},
+    describe::Describe,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::Ray,
 };
@@ -11,14 +11,8 @@ use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// The unbounded plane y = 0 of its object space, facing +y.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq, Describe)]
 pub struct Plane {}
-
-impl Describe for Plane {
-    const TAG: &'static str = "Plane";
-
-    fn describe(&mut self, _: &mut dyn FieldVisitor) {}
-}
 
 /// A plane as the inner loop sees it.
 #[derive(Clone, Debug)]

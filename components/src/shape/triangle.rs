@@ -7,7 +7,7 @@ use super::{
     triangle_kernel::{TriangleKernel, WithKernel, choose},
 };
 use crate::{
-    describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    describe::{Describe, Fault},
     method::Methods,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Bounds, Ray},
@@ -16,32 +16,28 @@ use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// A triangle by three points.
-#[derive(Component, Clone, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq, Describe)]
+#[describe(check = Self::agrees)]
 pub struct Triangle {
     /// First point, object space.
+    #[describe(required)]
     pub a: DVec3,
     /// Second point, object space.
+    #[describe(required)]
     pub b: DVec3,
     /// Third point, object space.
+    #[describe(required)]
     pub c: DVec3,
     /// Normals at the points, for smooth (Phong) shading; none for flat shading.
+    #[describe(nonzero)]
     pub normals: Vec<DVec3>,
     /// Texture coordinates at the points; none for the weights of b and c.
     pub uvs: Vec<DVec2>,
 }
 
-impl Describe for Triangle {
-    const TAG: &'static str = "Triangle";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("a", Value::Vector(&mut self.a), Spec::any("first point, object space").required());
-        fields.field("b", Value::Vector(&mut self.b), Spec::any("second point, object space").required());
-        fields.field("c", Value::Vector(&mut self.c), Spec::any("third point, object space").required());
-        fields.field("normals", Value::Vectors(&mut self.normals), Spec::any("a normal per point, or none").nonzero());
-        fields.field("uvs", Value::Vectors2(&mut self.uvs), Spec::any("texture coordinates per point, or none"));
-    }
-
-    fn check(&self) -> Result<(), Fault> {
+impl Triangle {
+    /// Whether the fields go together.
+    fn agrees(&self) -> Result<(), Fault> {
         for (field, count) in [("normals", self.normals.len()), ("uvs", self.uvs.len())] {
             if count != 0 && count != 3 {
                 return Err(Fault::new(field, format!("three entries or none, found {count}")));

@@ -1,23 +1,22 @@
 //! `Checker(odd: 0.2, frequency: 4)`: squares of two colours in turn.
 
 use super::{Footprint, Pattern, ROUNDED, Texture, TexturePoint};
-use crate::{
-    color::Rgb,
-    describe::{Describe, FieldVisitor, Spec, Value},
-    math,
-};
+use crate::{color::Rgb, describe::Describe, math};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use std::sync::Arc;
 
 /// Squares of two colours in turn, in texture coordinates.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct Checker {
     /// Colour of the square at the origin, linear RGB.
+    #[describe(not_negative)]
     pub even: Rgb,
     /// Colour of its neighbours, linear RGB.
+    #[describe(not_negative)]
     pub odd: Rgb,
     /// Squares per unit of u and v.
+    #[describe(positive)]
     pub frequency: f64,
     /// Whether the mean colour of what a ray stands for is shown, not that of the point.
     pub filtered: bool,
@@ -26,18 +25,6 @@ pub struct Checker {
 impl Default for Checker {
     fn default() -> Self {
         Self { even: Rgb::ONE, odd: Rgb::ZERO, frequency: 1.0, filtered: false }
-    }
-}
-
-impl Describe for Checker {
-    const TAG: &'static str = "Checker";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("even", Value::Color(&mut self.even), Spec::not_negative("square at the origin, linear RGB"));
-        fields.field("odd", Value::Color(&mut self.odd), Spec::not_negative("its neighbours, linear RGB"));
-        fields.field("frequency", Value::Number(&mut self.frequency), Spec::positive("squares per unit of u and v"));
-        let filtered = Spec::any("whether the mean of what a ray stands for is shown");
-        fields.field("filtered", Value::Bool(&mut self.filtered), filtered);
     }
 }
 

@@ -1,18 +1,15 @@
 //! `ImageTexture(image: "wood.png", filter: Anisotropic)`: an image file on a surface.
 
 use super::{Filter, Image, Pattern, Sampler, Texture, Wrap};
-use crate::{
-    asset::Asset,
-    color::Encoding,
-    describe::{Describe, FieldVisitor, Spec, Value},
-};
+use crate::{asset::Asset, color::Encoding, describe::Describe};
 use bevy_ecs::prelude::*;
 use std::sync::Arc;
 
 /// An image file as a texture.
-#[derive(Component, Clone, Debug, Default)]
+#[derive(Component, Clone, Debug, Default, Describe)]
 pub struct ImageTexture {
-    /// The image.
+    /// Image file, relative to the scene's.
+    #[describe(required)]
     pub image: Asset<Image>,
     /// What it shows beyond its edges.
     pub wrap: Wrap,
@@ -23,17 +20,6 @@ pub struct ImageTexture {
 impl From<Image> for ImageTexture {
     fn from(image: Image) -> Self {
         Self { image: Asset::from_data(image), ..Self::default() }
-    }
-}
-
-impl Describe for ImageTexture {
-    const TAG: &'static str = "ImageTexture";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let about = "image file, relative to the scene's";
-        fields.field("image", Value::Image(&mut self.image), Spec::any(about).required());
-        fields.field("wrap", Value::Choice(&mut self.wrap), Spec::any("what the image shows beyond its edges"));
-        fields.field("filter", Value::Choice(&mut self.filter), Spec::any("how its texels are put together"));
     }
 }
 

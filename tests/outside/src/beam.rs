@@ -2,29 +2,24 @@
 
 use snell::prelude::*;
 
-#[derive(Component, Clone)]
+#[derive(Component, Clone, Describe)]
 pub struct Beam {
+    /// Middle of the lamp, object space.
     position: DVec3,
+    /// The way the light goes, object space.
+    #[describe(nonzero)]
     direction: DVec3,
+    /// Radius of the beam, world units.
+    #[describe(positive, required)]
     radius: f64,
+    /// Linear RGB.
+    #[describe(not_negative)]
     intensity: Rgb,
 }
 
 impl Default for Beam {
     fn default() -> Self {
         Self { position: DVec3::ZERO, direction: DVec3::NEG_Y, radius: 1.0, intensity: Rgb::ONE }
-    }
-}
-
-impl Describe for Beam {
-    const TAG: &'static str = "Beam";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("position", Value::Vector(&mut self.position), Spec::any("middle of the lamp, object space"));
-        let direction = Spec::any("the way the light goes, object space").nonzero();
-        fields.field("direction", Value::Vector(&mut self.direction), direction);
-        fields.field("radius", Value::Number(&mut self.radius), Spec::positive("of the beam, world units").required());
-        fields.field("intensity", Value::Color(&mut self.intensity), Spec::not_negative("linear RGB"));
     }
 }
 

@@ -3,26 +3,22 @@
 use snell::{components::math, prelude::*};
 use std::sync::Arc;
 
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Clone, Debug, Describe)]
 pub struct Grain {
+    /// One end of the colours, linear RGB.
+    #[describe(not_negative)]
     a: Rgb,
+    /// The other end, linear RGB.
+    #[describe(not_negative)]
     b: Rgb,
+    /// Size of a grain, world units.
+    #[describe(positive)]
     size: f64,
 }
 
 impl Default for Grain {
     fn default() -> Self {
         Self { a: Rgb::ONE, b: Rgb::ZERO, size: 1.0 }
-    }
-}
-
-impl Describe for Grain {
-    const TAG: &'static str = "Grain";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("a", Value::Color(&mut self.a), Spec::not_negative("one end of the colours, linear RGB"));
-        fields.field("b", Value::Color(&mut self.b), Spec::not_negative("the other end, linear RGB"));
-        fields.field("size", Value::Number(&mut self.size), Spec::positive("of a grain, world units"));
     }
 }
 

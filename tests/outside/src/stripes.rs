@@ -3,26 +3,22 @@
 use snell::{components::math, prelude::*};
 use std::sync::Arc;
 
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Clone, Debug, Describe)]
 pub struct Stripes {
+    /// Colour of the stripe at zero, linear RGB.
+    #[describe(not_negative)]
     a: Rgb,
+    /// Colour of the next stripe, linear RGB.
+    #[describe(not_negative)]
     b: Rgb,
+    /// Width of a stripe, units of u.
+    #[describe(positive)]
     width: f64,
 }
 
 impl Default for Stripes {
     fn default() -> Self {
         Self { a: Rgb::ONE, b: Rgb::ZERO, width: 0.1 }
-    }
-}
-
-impl Describe for Stripes {
-    const TAG: &'static str = "Stripes";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("a", Value::Color(&mut self.a), Spec::not_negative("stripe at zero, linear RGB"));
-        fields.field("b", Value::Color(&mut self.b), Spec::not_negative("the next stripe, linear RGB"));
-        fields.field("width", Value::Number(&mut self.width), Spec::positive("of a stripe, units of u"));
     }
 }
 
