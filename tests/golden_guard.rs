@@ -94,6 +94,8 @@ fn one_level_of_one_channel_is_noticed_and_shown() {
     {
         assert!(page.contains(part), "{part}");
     }
+    // A ring about the middle of the pixel, and its colours.
+    assert!(page.contains("left:18.750%;top:41.667%") && page.matches("class=level").count() == 2, "{page}");
     assert_eq!(page.matches("data:image/png;base64,").count(), 5, "three pictures, and two to slide between");
     desk.check(&picture(), &Bless::Nothing).expect("equal");
     assert!(!desk.path("reports/report.html").exists(), "a report outlived its failure");
@@ -260,6 +262,25 @@ fn a_picture_without_scene_is_found() {
     assert_eq!(dead(desk.folder.path()).expect("read"), Vec::<&Path>::new());
     fs::remove_file(desk.path("area/case.ron")).expect("removed");
     assert_eq!(dead(desk.folder.path()).expect("read"), [desk.path("area/case.png")]);
+}
+
+#[test]
+fn a_picture_that_no_test_names_is_dead_and_leaves_the_report() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let [here, target] = [folder.path().to_str().expect("text"), &format!("{}/target/tmp", folder.path().display())];
+    fs::create_dir(path("tests")).expect("created");
+    fs::write(path("tests/all.rs"), "assert_golden!(renderer, \"area/named\");").expect("written");
+    for name in ["area/named", "area/unnamed"] {
+        let golden = Golden::new(here, Some(target), name);
+        golden.check(&mut picture(), &Bless::All).expect("blessed");
+        golden.check(&mut Picture::black(8, 6), &Bless::Nothing).expect_err("different");
+    }
+    let page = || fs::read_to_string(path("target/golden/report.html")).expect("a report");
+    assert!(page().contains("2 golden pictures fail") && page().contains("<a href=\"#1\">area/"));
+    let dead = snell::golden::dead(here, Some(target)).expect("read");
+    assert_eq!(dead, [path("tests/golden/area/unnamed.png")]);
+    assert!(page().contains("1 golden picture fails") && !page().contains("unnamed"), "{}", page());
 }
 
 #[test]

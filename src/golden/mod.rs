@@ -41,7 +41,7 @@ use crate::{
         image::{self, Format, Metadata, key},
     },
 };
-use report::Entry;
+use report::{Entry, First};
 use std::{
     env, fs, io,
     path::{Path, PathBuf},
@@ -72,7 +72,8 @@ macro_rules! assert_golden {
 #[macro_export]
 macro_rules! assert_no_dead_golden {
     () => {
-        let dead = $crate::golden::dead(env!("CARGO_MANIFEST_DIR").as_ref()).expect("the crate's tests can be read");
+        let dead = $crate::golden::dead(env!("CARGO_MANIFEST_DIR"), option_env!("CARGO_TARGET_TMPDIR"))
+            .expect("the crate's tests can be read");
         assert!(dead.is_empty(), "golden pictures that no test names: {dead:?}");
     };
 }
@@ -92,19 +93,16 @@ pub struct Golden {
     scene: Option<PathBuf>,
     /// How to run the tests.
     command: String,
+    /// How to run the command line that knows the scene's components.
+    program: String,
 }
 
 impl Golden {
     /// The golden picture of a name in a crate: what [`assert_golden!`] makes.
     #[must_use]
     pub fn new(crate_folder: &str, tests_folder: Option<&str>, name: &str) -> Self {
-        let folder = Path::new(crate_folder);
-        let reports = match tests_folder {
-            // Cargo's folder for tests lies in the target folder.
-            Some(tests) => Path::new(tests).with_file_name("golden"),
-            None => folder.join("target/golden"),
-        };
-        Self::at(name, &folder.join("tests/golden").join(name).with_extension("png"), &reports)
+        let expected = Path::new(crate_folder).join("tests/golden").join(format!("{name}.png"));
+        Self::at(name, &expected, &reports(crate_folder, tests_folder))
     }
 
     /// A golden picture in a file, with the folder for reports.
@@ -119,6 +117,7 @@ impl Golden {
             most_bytes: MOST_BYTES,
             scene: None,
             command: "cargo test".into(),
+            program: "snell".into(),
         }
     }
 
@@ -163,6 +162,13 @@ impl Golden {
     #[must_use]
     pub fn command(self, command: &str) -> Self {
         Self { command: command.into(), ..self }
+    }
+
+    /// Names the program whose command line explains a pixel, if it is not `snell`: a crate with components of its own has
+    /// one of its own, and `cargo run --` runs it.
+    #[must_use]
+    pub fn program(self, program: &str) -> Self {
+        Self { program: program.into(), ..self }
     }
 
     /// Compares, and blesses if the environment says so.
@@ -232,12 +238,13 @@ impl Golden {
             Failure::Unusable(why) => why.clone(),
             Failure::Different(different) => different.to_string(),
         };
-        let first = failure.first().map(|(x, y)| {
+        let first = failure.first_shown().map(|First { x, y, .. }| {
             let corner = self.region.map_or((0, 0), |region| (region.x, region.y));
             (x + corner.0, y + corner.1)
         });
-        let explain =
-            first.zip(self.scene.as_ref()).map(|((x, y), scene)| format!("snell why {} {x} {y}", scene.display()));
+        let explain = first
+            .zip(self.scene.as_ref())
+            .map(|((x, y), scene)| format!("{} why {} {x} {y}", self.program, scene.display()));
         let entry = Entry {
             name: self.name.clone(),
             what: what.clone(),
@@ -245,6 +252,8 @@ impl Golden {
             flip: failure.flip(),
             bits: failure.bits(),
             bless: format!("SNELL_BLESS='{}' {}", self.name, self.command),
+            expected: self.expected.clone(),
+            first: failure.first_shown(),
             explain: explain.clone(),
             why: first.and_then(|(x, y)| source.why(x, y)),
         };
@@ -272,12 +281,10 @@ struct Different {
 }
 
 impl Failure {
-    /// Column and row of the first pixel whose levels differ.
-    fn first(&self) -> Option<(u32, u32)> {
-        match self {
-            Self::Different(different) => different.comparison.first_shown.map(|pixel| (pixel.x, pixel.y)),
-            _ => None,
-        }
+    /// The first pixel whose levels differ.
+    fn first_shown(&self) -> Option<First> {
+        let Self::Different(different) = self else { return None };
+        different.comparison.first_shown.map(|pixel| First { x: pixel.x, y: pixel.y, levels: pixel.levels })
     }
 
     /// The mean FLIP error; 1 where nothing can be compared.
@@ -324,25 +331,34 @@ fn write(path: &Path, picture: &Picture) -> Result<(), String> {
 }
 
 /// Golden pictures of a crate that no test names: their names stand in quotes in no Rust file of its `tests`, `src`,
-/// `examples` and `benches`, and they have no scene of their name beside them.
+/// `examples` and `benches`, and they have no scene of their name beside them. What earlier failures of such pictures left
+/// is taken out of the report. The folders are those of [`Golden::new`].
 ///
 /// # Errors
 /// A folder or file that cannot be read.
-pub fn dead(crate_folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let root = crate_folder.join("tests/golden");
+pub fn dead(crate_folder: &str, tests_folder: Option<&str>) -> io::Result<Vec<PathBuf>> {
+    let folder = Path::new(crate_folder);
+    let root = folder.join("tests/golden");
     let mut code = String::new();
-    for folder in ["tests", "src", "examples", "benches"] {
-        for file in files(&crate_folder.join(folder), "rs")? {
+    for part in ["tests", "src", "examples", "benches"] {
+        for file in files(&folder.join(part), "rs")? {
             code.push_str(&fs::read_to_string(file)?);
         }
     }
+    let is_named = |name: &str| code.contains(&format!("\"{name}\"")) || root.join(format!("{name}.ron")).exists();
+    report::forget(&reports(crate_folder, tests_folder), &root, is_named)?;
     let mut dead = files(&root, "png")?;
     dead.retain(|picture| {
         let name = picture.strip_prefix(&root).unwrap_or(picture).with_extension("");
-        let name = name.to_string_lossy().replace('\\', "/");
-        !picture.with_extension("ron").exists() && !code.contains(&format!("\"{name}\""))
+        !is_named(&name.to_string_lossy().replace('\\', "/"))
     });
     Ok(dead)
+}
+
+/// The folder for reports: beside Cargo's folder for tests, which lies in the target folder.
+fn reports(crate_folder: &str, tests_folder: Option<&str>) -> PathBuf {
+    tests_folder
+        .map_or(Path::new(crate_folder).join("target/golden"), |tests| Path::new(tests).with_file_name("golden"))
 }
 
 /// Files with an extension in a folder and all below it, in order; none if there is no such folder.

@@ -10,7 +10,7 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 use std::{
-    fs,
+    fs, io,
     path::{Path, PathBuf},
     sync::Mutex,
 };
@@ -29,10 +29,22 @@ pub(super) struct Entry {
     pub bits: usize,
     /// The command to bless.
     pub bless: String,
-    /// The command that explains the first pixel that differs.
+    /// The golden file.
+    pub expected: PathBuf,
+    /// The first pixel whose levels differ.
+    pub first: Option<First>,
+    /// The command that explains it.
     pub explain: Option<String>,
     /// How that pixel comes about now.
     pub why: Option<String>,
+}
+
+/// A pixel of the pictures, and its levels as expected and drawn.
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
+pub(super) struct First {
+    pub x: u32,
+    pub y: u32,
+    pub levels: [[u8; 3]; 2],
 }
 
 /// Tests of one program run at the same time.
@@ -81,18 +93,37 @@ pub(super) fn remove(reports: &Path, name: &str) {
         return;
     }
     let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    take(reports, name);
+    let _ = write_page(reports);
+}
+
+/// Takes away what is left of golden pictures in a folder that nobody names any more.
+pub(super) fn forget(reports: &Path, folder: &Path, is_named: impl Fn(&str) -> bool) -> io::Result<()> {
+    let _one = WRITING.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+    let entries = entries(reports)?;
+    let forgotten = |entry: &&Entry| entry.expected.starts_with(folder) && !is_named(&entry.name);
+    for entry in entries.iter().filter(forgotten) {
+        take(reports, &entry.name);
+    }
+    let _ = write_page(reports);
+    Ok(())
+}
+
+fn take(reports: &Path, name: &str) {
     for kind in ["json", "actual.png", "expected.png", "difference.png"] {
         // That it is not there is as good.
         let _ = fs::remove_file(part(reports, name, kind));
     }
-    let _ = write_page(reports);
+}
+
+fn entries(reports: &Path) -> io::Result<Vec<Entry>> {
+    let files = super::files(reports, "json")?;
+    Ok(files.iter().filter_map(|file| serde_json::from_slice(&fs::read(file).ok()?).ok()).collect())
 }
 
 /// Writes the page of all failures, worst first; without failures there is none.
 fn write_page(reports: &Path) -> Result<PathBuf, String> {
-    let files = super::files(reports, "json").map_err(|why| why.to_string())?;
-    let entry = |file: &PathBuf| serde_json::from_slice::<Entry>(&fs::read(file).ok()?).ok();
-    let mut entries: Vec<_> = files.iter().filter_map(entry).collect();
+    let mut entries = entries(reports).map_err(|why| why.to_string())?;
     entries.sort_by(|a, b| b.flip.total_cmp(&a.flip).then(b.bits.cmp(&a.bits)).then(a.name.cmp(&b.name)));
     let page = reports.join(PAGE);
     if entries.is_empty() {

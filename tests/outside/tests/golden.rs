@@ -6,14 +6,14 @@ use snell::{assert_golden, assert_no_dead_golden};
 fn a_ring_in_a_beam_on_stripes() {
     let mut renderer = outside::renderer();
     renderer.load("scenes/beam.ron").expect("a sound scene");
-    assert_golden!(renderer, "ring-in-a-beam", scene("scenes/beam.ron"));
+    assert_golden!(renderer, "ring-in-a-beam", scene("scenes/beam.ron"), program("cargo run --"));
 }
 
 #[test]
 fn a_ring_and_a_ball() {
     let mut renderer = outside::renderer();
     renderer.load("scenes/torus.ron").expect("a sound scene");
-    assert_golden!(renderer, "ring-and-ball", scene("scenes/torus.ron"));
+    assert_golden!(renderer, "ring-and-ball", scene("scenes/torus.ron"), program("cargo run --"));
 }
 
 #[test]
