@@ -10,16 +10,12 @@ use snell::{
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut renderer = Renderer::new();
-    let scene = r##"(version: 1, settings: (width: 160, height: 100, background: (0.5, 0.7, 0.9)), entities: {
-        "camera": [Camera(position: (0, 1.5, 5), target: (0, 0.8, 0))],
-        "sun": [DirectionalLight(direction: (-1, -2, -1))],
-        "ground": [Plane(), Checker(odd: 0.3)],
-        "ball": [Sphere(radius: 0.5), Color("#d04020")],
-    })"##;
-    renderer.load_text(scene, "animation.rs")?;
-    let mut names = renderer.world.query::<(Entity, &Name)>();
-    let ball = names.iter(&renderer.world).find(|(_, name)| name.as_str() == "ball").map(|(ball, _)| ball);
-    let ball = ball.ok_or("the scene has a ball")?;
+    renderer.set_size(160, 100);
+    renderer.settings().background = Rgb::new(0.5, 0.7, 0.9);
+    renderer.add("camera", Camera::at([0.0, 1.5, 5.0]).looking_at([0.0, 0.8, 0.0]));
+    renderer.add("sun", DirectionalLight::along([-1.0, -2.0, -1.0]));
+    renderer.add("ground", (Plane {}, Checker { odd: Rgb::splat(0.3), ..Checker::default() }));
+    let ball = renderer.add("ball", (Sphere { radius: 0.5 }, Color::srgb(0xd04020))).id();
 
     let folder = std::env::temp_dir();
     let frames = 8;

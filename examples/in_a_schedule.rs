@@ -41,10 +41,10 @@ fn draw(mut tracer: ResMut<Tracer>) {
 
 fn main() {
     let mut renderer = Renderer::new();
-    (renderer.settings().width, renderer.settings().height) = (64, 48);
-    renderer.world.spawn(Camera { position: DVec3::new(0.0, 1.0, 6.0), ..Camera::default() });
-    renderer.world.spawn(DirectionalLight { direction: DVec3::new(-1.0, -2.0, -1.0), ..DirectionalLight::default() });
-    let shown = renderer.world.spawn((Sphere { radius: 0.5 }, Color(Rgb::new(0.9, 0.4, 0.1)))).id();
+    renderer.set_size(64, 48);
+    renderer.add("camera", Camera::at([0.0, 1.0, 6.0]));
+    renderer.add("sun", DirectionalLight::along([-1.0, -2.0, -1.0]));
+    let shown = renderer.add("body", (Sphere { radius: 0.5 }, Color::srgb(0xf0a858))).id();
 
     let mut world = World::new();
     world.spawn(Body { height: 2.0, shown });

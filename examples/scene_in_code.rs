@@ -1,7 +1,7 @@
 //! How do I build a scene in code? `cargo run --example scene_in_code`
 //!
-//! Entities are made of components; a relationship names the material. Names decide the order of everything, so that the
-//! picture is the same however the scene was put together.
+//! As in a scene file: a name, and what the thing is made of. Names decide the order of everything, so that the picture is
+//! the same however the scene was put together. What is added is an entity of `renderer.world`, an ordinary ECS world.
 
 use snell::{
     prelude::*,
@@ -9,21 +9,20 @@ use snell::{
 };
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut renderer = Renderer::new();
-    let world = &mut renderer.world;
-    world.spawn(Camera { position: DVec3::new(0.0, 2.0, 6.0), target: Some(DVec3::Y), ..Camera::default() });
-    world.spawn(AmbientLight { intensity: Rgb::splat(0.3) });
-    world.spawn(DirectionalLight { direction: DVec3::new(-1.0, -2.0, -1.0), ..DirectionalLight::default() });
-    world.spawn((Name::new("ground"), Plane {}, Checker::default(), Ambient(Rgb::ONE), Diffuse(Rgb::ONE)));
-    let brass = world.spawn((Color(Rgb::new(0.8, 0.55, 0.2)), Diffuse(Rgb::splat(0.7)), Mirror(Rgb::splat(0.25)))).id();
+    let mut scene = Renderer::new();
+    scene.set_size(320, 200);
+    scene.settings().background = Rgb::new(0.4, 0.6, 0.8);
+    scene.add("camera", Camera::at([0.0, 2.0, 6.0]).looking_at([0.0, 1.0, 0.0]));
+    scene.add("sky", AmbientLight::grey(0.3));
+    scene.add("sun", DirectionalLight::along([-1.0, -2.0, -1.0]));
+    scene.add("ground", (Plane {}, Checker::default(), Ambient::grey(1.0), Diffuse::grey(1.0)));
+    let brass = scene.add("brass", (Color::srgb(0xe8c27c), Diffuse::grey(0.7), Mirror::grey(0.25))).id();
     for i in -2..=2 {
-        let place = DVec3::new(f64::from(i) * 1.1, 0.5, 0.0);
-        let name = Name::new(format!("ball {i}"));
-        world.spawn((name, Sphere { radius: 0.5 }, Transform::at(place), MadeOf(brass)));
+        let place = [1.1 * f64::from(i), 0.5, 0.0];
+        scene.add(format!("ball {i}"), Sphere { radius: 0.5 }).at(place).made_of(brass);
     }
-    (renderer.settings().width, renderer.settings().height) = (320, 200);
 
-    let snapshot = renderer.snapshot()?;
+    let snapshot = scene.snapshot()?;
     let frame = render(&snapshot, &Options::default());
     let file = std::env::temp_dir().join("scene_in_code.png");
     let told = Metadata::of(&frame, &snapshot.settings, "scene_in_code.rs".as_ref());

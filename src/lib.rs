@@ -6,17 +6,15 @@
 //! ```
 //! use snell::prelude::*;
 //!
-//! let mut renderer = Renderer::new();
-//! let world = &mut renderer.world;
-//! world.spawn(Camera { position: DVec3::new(0.0, 1.0, 5.0), ..Camera::default() });
-//! world.spawn(PointLight { position: DVec3::new(3.0, 5.0, 4.0), ..PointLight::default() });
-//! let red = world.spawn((Color(Rgb::new(0.8, 0.1, 0.1)), Diffuse(Rgb::ONE))).id();
-//! world.spawn((Sphere { radius: 1.0 }, Transform::at(DVec3::Y), MadeOf(red)));
-//! world.spawn(Plane {});
-//! renderer.settings().width = 40;
-//! renderer.settings().height = 30;
+//! let mut scene = Renderer::new();
+//! scene.set_size(40, 30);
+//! scene.add("camera", Camera::at([0.0, 1.0, 5.0]));
+//! scene.add("lamp", PointLight::at([3.0, 5.0, 4.0]));
+//! let red = scene.add("red", (Color::srgb(0xe06060), Diffuse::grey(0.9))).id();
+//! scene.add("ball", Sphere { radius: 1.0 }).at([0.0, 1.0, 0.0]).made_of(red);
+//! scene.add("ground", Plane {});
 //!
-//! let snapshot = renderer.snapshot()?;
+//! let snapshot = scene.snapshot()?;
 //! let frame = render(&snapshot, &Options::default());
 //! assert!(frame.is_complete());
 //! # Ok::<(), snell::SceneError>(())
@@ -34,6 +32,7 @@ pub use snell_systems::conformance;
 
 pub use snell_components::method::{Accelerator, Methods, Precision, SphereTest, TriangleTest};
 pub use snell_systems::{
+    build::Added,
     extract::SceneError,
     load::{Fault, Faults, Notice},
     pipeline::Renderer,

@@ -54,6 +54,20 @@ impl Default for Camera {
 }
 
 impl Camera {
+    /// A camera at a place, looking along −z.
+    #[must_use]
+    pub fn at(position: impl Into<DVec3>) -> Self {
+        Self { position: position.into(), ..Self::default() }
+    }
+
+    /// The same camera with a point in the middle of its picture.
+    #[must_use]
+    pub fn looking_at(self, target: impl Into<DVec3>) -> Self {
+        Self { target: Some(target.into()), direction: None, ..self }
+    }
+}
+
+impl Camera {
     /// Whether the fields go together.
     fn agrees(&self) -> Result<(), Fault> {
         if self.target.is_some() && self.direction.is_some() {

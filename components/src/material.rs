@@ -10,7 +10,7 @@
 //! The components may sit on an object itself, or on an entity of their own that many objects share by [`MadeOf`].
 
 use crate::{
-    color::Rgb,
+    color::{Encoding, Rgb},
     describe::{Describe, FieldVisitor, Spec, Value},
 };
 use bevy_ecs::{entity::EntityHashSet, prelude::*};
@@ -43,6 +43,14 @@ macro_rules! effect {
         #[derive(Component, Clone, Copy, Debug, PartialEq)]
         pub struct $name(pub Rgb);
 
+        impl $name {
+            /// The same in every channel.
+            #[must_use]
+            pub fn grey(level: f64) -> Self {
+                Self(Rgb::splat(level))
+            }
+        }
+
         impl Default for $name {
             fn default() -> Self {
                 Self($default)
@@ -63,6 +71,15 @@ effect!(
     /// Surface colour `C`, linear RGB; white where absent. Textures multiply it.
     Color, "Color", Rgb::ONE, "color", Spec::not_negative("surface colour, linear RGB").required()
 );
+impl Color {
+    /// A colour as screens show it: `0xrrggbb`, sRGB.
+    #[must_use]
+    pub fn srgb(rrggbb: u32) -> Self {
+        let channel = |shift: u32| Encoding::Srgb.decode(f64::from(rrggbb >> shift & 0xff) / 255.0);
+        Self(Rgb::new(channel(16), channel(8), channel(0)))
+    }
+}
+
 effect!(
     /// `ka`: how much of the ambient light the surface returns.
     Ambient, "Ambient", Rgb::ONE, "strength", Spec::not_negative("share of the ambient light").required()

@@ -2,11 +2,13 @@
 //!
 //! scene text → [`load`] → `World` → [`transform`] → [`accelerate`] → [`extract`] → [`snapshot::Snapshot`] → [`render`]
 //! → [`image`] → file. [`save`] is the way back from a `World` to scene text, by way of [`scene`]; [`compare`] tells how far
-//! two pictures are apart; [`pipeline`] holds the order, [`registry`] the open set of components.
+//! two pictures are apart; [`pipeline`] holds the order, [`build`] makes scenes in code, [`registry`] the open set of components.
 
 #![forbid(unsafe_code)]
 
 pub mod pipeline;
+
+pub mod build;
 
 pub mod registry;
 

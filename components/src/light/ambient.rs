@@ -11,6 +11,14 @@ pub struct AmbientLight {
     pub intensity: Rgb,
 }
 
+impl AmbientLight {
+    /// The same in every channel.
+    #[must_use]
+    pub fn grey(level: f64) -> Self {
+        Self { intensity: Rgb::splat(level) }
+    }
+}
+
 impl Default for AmbientLight {
     fn default() -> Self {
         Self { intensity: Rgb::ONE }

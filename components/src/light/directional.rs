@@ -18,6 +18,14 @@ pub struct DirectionalLight {
     pub shadows: bool,
 }
 
+impl DirectionalLight {
+    /// A white light of intensity 1 that goes a way.
+    #[must_use]
+    pub fn along(direction: impl Into<DVec3>) -> Self {
+        Self { direction: direction.into(), ..Self::default() }
+    }
+}
+
 impl Default for DirectionalLight {
     fn default() -> Self {
         Self { direction: DVec3::NEG_Y, intensity: Rgb::ONE, shadows: true }

@@ -8,7 +8,7 @@ use glam::{DAffine3, DVec2, DVec3};
 /// A light that shines from one point in all directions.
 #[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct PointLight {
-    /// Object space.
+    /// Where it shines from, object space.
     #[describe(required)]
     pub position: DVec3,
     /// Linear RGB.
@@ -16,6 +16,14 @@ pub struct PointLight {
     pub intensity: Rgb,
     /// Whether things cast shadows in this light.
     pub shadows: bool,
+}
+
+impl PointLight {
+    /// A white light of intensity 1.
+    #[must_use]
+    pub fn at(position: impl Into<DVec3>) -> Self {
+        Self { position: position.into(), ..Self::default() }
+    }
 }
 
 impl Default for PointLight {
