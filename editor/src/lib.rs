@@ -1,4 +1,4 @@
-//! What an editor of scenes stands on, without a window.
+//! An editor of scenes: a window in which one can build, light, look and render.
 //!
 //! | module | holds |
 //! |---|---|
@@ -7,6 +7,10 @@
 //! | [`loader`] | files are read in the background |
 //! | [`autosave`], [`files`] | what outlives a crash, and where an editor keeps its own files |
 //! | [`placement`], [`view`] | moving, turning and scaling things; moving the camera |
+//! | [`session`] | the open scene and all of the above at work for it |
+//! | [`app`], [`window`] | what is seen, with egui; the window on the screen |
+
+pub mod app;
 
 pub mod autosave;
 
@@ -20,6 +24,10 @@ pub mod placement;
 
 pub mod screen;
 
+pub mod session;
+
 pub mod view;
+
+pub mod window;
 
 pub mod worker;

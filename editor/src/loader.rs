@@ -103,12 +103,24 @@ fn loaded(
     Ok(Loaded { renderer, scene, notices })
 }
 
-/// Takes the paths of all files that a scene names from one folder to another.
-pub fn rebase(scene: &mut Scene, from: &Path, to: &Path) {
-    let mut mover = Mover { from, to };
+/// Makes the paths of all files that a scene names absolute; they are as seen from a folder.
+pub fn make_absolute(scene: &mut Scene, folder: &Path) {
+    let folder = std::path::absolute(folder).unwrap_or(folder.into());
+    let moved = |path: &Path| folder.join(path);
+    move_paths(scene, &moved);
+}
+
+/// Makes the paths of all files that a scene names as seen from a folder, where that can be.
+pub fn make_relative(scene: &mut Scene, folder: &Path) {
+    let moved = |path: &Path| crate::files::relative(path, folder);
+    move_paths(scene, &moved);
+}
+
+fn move_paths(scene: &mut Scene, moved: &dyn Fn(&Path) -> PathBuf) {
     for (_, thing) in &mut scene.things {
         let names_files = thing.components.values().any(|component| names_file(component.as_ref()));
         if names_files {
+            let mut mover = Mover(moved);
             Arc::make_mut(thing).components.values_mut().for_each(|component| component.visit(&mut mover));
         }
     }
@@ -128,17 +140,12 @@ pub fn names_file(component: &dyn AnyComponent) -> bool {
     finder.0
 }
 
-struct Mover<'a> {
-    from: &'a Path,
-    to: &'a Path,
-}
+struct Mover<'a>(&'a dyn Fn(&Path) -> PathBuf);
 
 impl Mover<'_> {
     fn rebase<T>(&self, asset: &mut Asset<T>) {
-        let path = Path::new(&asset.path);
-        if !asset.path.is_empty() && path.is_relative() {
-            let moved = crate::files::relative(&self.from.join(path), self.to);
-            asset.path = moved.to_string_lossy().into_owned();
+        if !asset.path.is_empty() {
+            asset.path = (self.0)(Path::new(&asset.path)).to_string_lossy().into_owned();
         }
     }
 }

@@ -1,6 +1,6 @@
 //! What may be written on the command line.
 
-use super::{diff::DiffArguments, fmt::FmtArguments, repro::ReproArguments};
+use super::{diff::DiffArguments, edit::EditArguments, fmt::FmtArguments, repro::ReproArguments};
 use crate::Region;
 use clap::{
     Args, Parser, Subcommand,
@@ -25,6 +25,7 @@ pub(super) struct Arguments {
 #[derive(Subcommand, Debug)]
 pub(super) enum Command {
     Render(RenderArguments),
+    Edit(EditArguments),
     Hash(HashArguments),
     Check(CheckArguments),
     Why(WhyArguments),

@@ -22,6 +22,7 @@ mod chart;
 mod check;
 mod diff;
 mod draw;
+mod edit;
 mod fmt;
 mod machine;
 mod progress;
@@ -56,6 +57,7 @@ pub fn run(renderer: Renderer, args: impl IntoIterator<Item = OsString>) -> Exit
 fn run_with(mut renderer: Renderer, args: impl IntoIterator<Item = OsString>, console: &mut Console<'_>) -> u8 {
     let done = match Arguments::try_parse_from(args) {
         Ok(Arguments { command: Command::Render(args) }) => render::render(&mut renderer, &args, console),
+        Ok(Arguments { command: Command::Edit(args) }) => edit::edit(&args, console),
         Ok(Arguments { command: Command::Hash(args) }) => render::hash(&mut renderer, &args, console),
         Ok(Arguments { command: Command::Check(args) }) => check::check(&mut renderer, &args, console),
         Ok(Arguments { command: Command::Why(args) }) => why::why(&mut renderer, &args, console),

@@ -5,7 +5,7 @@ use snell_components::{
     bvh::{Box32, Bvh},
     method::{Accelerator, Methods, Precision},
     primitive::{Cost, Extent, Hit, Surface},
-    space::Ray,
+    space::{BoundingSphere, Ray},
     sphere_tree::SphereTree,
 };
 use std::sync::{Arc, OnceLock};
@@ -116,6 +116,15 @@ impl Geometry {
         let pools = pools.iter().zip(&orders).map(|(pool, order)| pool.permuted(order)).collect();
         let tree = (shapes.len() > FLAT).then_some(tree);
         Self { tree, pools, runs, leaf_runs, unbounded, spheres: OnceLock::new() }
+    }
+
+    /// The sphere around an object, by its rank in the order of names, if it is bounded; looks through all objects.
+    #[must_use]
+    pub fn bounding_sphere(&self, object: u32) -> Option<BoundingSphere> {
+        self.pools.iter().find_map(|pool| {
+            let index = pool.objects().iter().position(|known| *known == object)?;
+            pool.bounding_sphere(index as u32)
+        })
     }
 
     /// [`Geometry::nearest`] with the surface there.

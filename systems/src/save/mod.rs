@@ -7,7 +7,7 @@ mod text;
 mod value;
 
 pub use text::scene_text;
-pub use value::{Written, fields, same};
+pub use value::{Written, color_text, fields, same};
 
 use core::fmt;
 

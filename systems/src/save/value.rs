@@ -101,6 +101,13 @@ fn list(items: impl Iterator<Item = Result<String, String>>) -> Result<String, S
     Ok(format!("[{}]", items.collect::<Result<Vec<_>, _>>()?.join(", ")))
 }
 
+/// A colour as a scene writes it: see [`scene_text`](super::scene_text). A colour that no scene can hold gives a text that
+/// none reads.
+#[must_use]
+pub fn color_text(color: Rgb, encoding: Encoding) -> String {
+    self::color(color, encoding).unwrap_or_else(|_| format!("{color:?}"))
+}
+
 /// One number for grey, `"#rrggbb"` where that means these very bits, and three numbers otherwise.
 fn color(color: Rgb, encoding: Encoding) -> Result<String, String> {
     let channels = color.to_array();

@@ -1,0 +1,186 @@
+//! Files in the editor without a window: opening, faults, dropping, what is kept of scenes that were not saved.
+
+use crate::driver::{Window, rendered};
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        fs::read(&self.0).map_err(|why| why.to_string())
+    }
+}
+
+fn drop_file(window: &mut Window, file: &Path) {
+    window.harness.input_mut().dropped_files.push(std::sync::Arc::new(Dropped(file.to_path_buf())));
+    window.step();
+    window.wait();
+}
+
+const SCENE: &str = r#"Scene(
+    version: 1,
+    settings: (width: 60, height: 40),
+    entities: {
+        "camera": [Camera(position: (0, 1, 6), target: (0, 1, 0))],
+        "lamp": [PointLight(position: (3, 5, 4))],
+        "ball": [Sphere(1), Transform([Translate((0, 1, 0))]), Diffuse(0.8)],
+    },
+)
+"#;
+
+fn scene(folder: &Path) -> PathBuf {
+    let file = folder.join("scene.ron");
+    fs::write(&file, SCENE).expect("written");
+    file
+}
+
+#[test]
+fn a_scene_with_faults_tells_all_with_lines_and_the_last_good_one_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    let mut window = Window::open(folder.path(), Some(&file));
+    let picture = window.picture();
+    let bad = folder.path().join("bad.ron");
+    fs::write(&bad, SCENE.replace("Sphere(1)", "Shpere(1)").replace("width: 60", "width: 0")).expect("written");
+    drop_file(&mut window, &bad);
+    let told: Vec<String> =
+        window.harness.query_all_by_label_contains("bad.ron:").filter_map(|node| node.value()).collect();
+    assert!(told.iter().any(|line| line.contains(":3:") && line.contains("from 1 to 65536")), "{told:?}");
+    assert!(told.iter().any(|line| line.contains(":7:") && line.contains("Sphere")), "{told:?}");
+    window.click("Close");
+    assert_eq!(window.picture(), picture);
+    assert_eq!(window.editor().session().document.file(), Some(file.as_path()));
+    // And goes on to be edited.
+    window.menu(&["ball"]);
+    window.set("Radius", "1.5");
+    assert_ne!(window.picture(), picture);
+}
+
+#[test]
+fn a_model_that_is_dropped_is_added_and_saved_by_its_path_from_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    fs::create_dir(folder.path().join("models")).expect("made");
+    let model = folder.path().join("models/roof.obj");
+    let mtl = "newmtl tiles\nKd 0.8 0.2 0.1\n";
+    fs::write(folder.path().join("models/roof.mtl"), mtl).expect("written");
+    fs::write(&model, "mtllib roof.mtl\nusemtl tiles\nv -2 2 0\nv 2 2 0\nv 0 3 0\nf 1 2 3\n").expect("written");
+    let mut window = Window::open(folder.path(), Some(&file));
+    let before = window.picture();
+    drop_file(&mut window, &model);
+    assert_eq!(window.editor().selected().map(|name| name.as_str()), Some("roof"));
+    assert_ne!(window.picture(), before);
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait();
+    let saved = fs::read_to_string(&file).expect("a text");
+    assert!(saved.contains(r#"Mesh(model: "models/roof.obj")"#), "{saved}");
+    assert_eq!(window.picture(), rendered(&file));
+    window.menu(&["Undo"]);
+    assert_eq!(window.picture(), before);
+    // Something that is no file of ours is told, and nothing happens.
+    let other = folder.path().join("notes.txt");
+    fs::write(&other, "x").expect("written");
+    drop_file(&mut window, &other);
+    assert!(window.harness.query_all_by_label_contains("is no scene, model or image").next().is_some());
+}
+
+#[test]
+fn an_image_that_is_dropped_goes_onto_the_selected_thing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    let picture = folder.path().join("dots.png");
+    image::RgbImage::from_fn(4, 4, |x, y| image::Rgb([(x * 60) as u8, (y * 60) as u8, 90]))
+        .save(&picture)
+        .expect("saved");
+    let mut window = Window::open(folder.path(), Some(&file));
+    window.menu(&["ball"]);
+    let before = window.picture();
+    drop_file(&mut window, &picture);
+    assert_ne!(window.picture(), before);
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait();
+    assert!(fs::read_to_string(&file).expect("a text").contains(r#"ImageTexture(image: "dots.png")"#));
+    assert_eq!(window.picture(), rendered(&file));
+}
+
+#[test]
+fn comments_of_a_file_that_is_replaced_are_kept_beside_it_and_an_unchanged_file_is_not_touched() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    let text = format!("// Mine.\n{SCENE}");
+    fs::write(&file, &text).expect("written");
+    let mut window = Window::open(folder.path(), Some(&file));
+    window.key(Modifiers::COMMAND, Key::S);
+    assert_eq!(fs::read_to_string(&file).expect("a text"), text);
+    window.menu(&["ball"]);
+    window.set("Radius", "2");
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait();
+    assert!(!fs::read_to_string(&file).expect("a text").contains("Mine"));
+    assert_eq!(fs::read_to_string(folder.path().join("scene.ron~")).expect("a text"), text);
+}
+
+#[test]
+fn what_was_not_saved_is_offered_and_can_be_taken_or_thrown_away() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    let kept = folder.path().join(".scene.ron.autosave");
+    let edited = {
+        let mut window = Window::open(folder.path(), Some(&file));
+        window.menu(&["ball"]);
+        window.set("Radius", "2");
+        window.editor().session().flush();
+        assert!(kept.is_file());
+        window.text()
+        // Here the program ends without a word.
+    };
+    {
+        let mut window = Window::open(folder.path(), Some(&file));
+        window.click("Recover");
+        window.wait();
+        assert_eq!(window.text(), edited);
+        assert!(window.editor().session().document.is_changed());
+        window.key(Modifiers::COMMAND, Key::S);
+        window.wait();
+        window.editor().session().flush();
+        assert!(fs::read_to_string(&file).expect("a text").contains("Sphere(2)") && !kept.exists());
+        window.menu(&["ball"]);
+        window.set("Radius", "3");
+        window.editor().session().flush();
+    }
+    let mut window = Window::open(folder.path(), Some(&file));
+    window.click("Throw away");
+    window.wait();
+    assert!(window.text().contains("Sphere(2)") && !kept.exists());
+}
+
+#[test]
+fn another_scene_is_not_opened_before_changes_are_saved_or_not_wanted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    let mut window = Window::open(folder.path(), Some(&file));
+    window.menu(&["ball"]);
+    window.set("Radius", "2");
+    window.key(Modifiers::COMMAND, Key::N);
+    window.click("Ball");
+    window.step();
+    assert!(window.text().contains("Sphere(2)"));
+    window.click("Cancel");
+    assert!(window.text().contains("Sphere(2)"));
+    window.key(Modifiers::COMMAND, Key::N);
+    window.click("Ball");
+    window.click("Save");
+    window.wait();
+    assert!(fs::read_to_string(&file).expect("a text").contains("Sphere(2)"));
+    assert!(window.text().contains("Checker"), "{}", window.text());
+}
