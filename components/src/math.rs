@@ -39,8 +39,17 @@ pub fn acos(x: f64) -> f64 {
 
 /// Largest integer not above `x`, exact.
 #[must_use]
+#[inline]
 pub fn floor(x: f64) -> f64 {
-    libm::floor(x)
+    // Whole numbers are their own floor, the sign of zero included; so are all from 2⁵² up, infinities and NaN.
+    let cut = x as i64 as f64;
+    if x.abs() >= 4_503_599_627_370_496.0 || cut == x || x.is_nan() {
+        x
+    } else if cut > x {
+        cut - 1.0
+    } else {
+        cut
+    }
 }
 
 /// Tangent of an angle in degrees.
@@ -95,6 +104,18 @@ mod tests {
         assert_eq!(sin_cos_degrees(720.0), (0.0, 1.0));
         let (sin, cos) = sin_cos_degrees(30.0);
         assert!((sin - 0.5).abs() <= ROUNDOFF && (cos - 0.75f64.sqrt()).abs() <= 2.0 * ROUNDOFF);
+    }
+
+    #[test]
+    fn the_floor_is_that_of_libm_to_the_last_bit() {
+        let mut numbers = vec![0.0, f64::NAN, f64::INFINITY, f64::MIN_POSITIVE, f64::from_bits(1), 0.5, 2.5, 1e300];
+        for exponent in 0..70u32 {
+            let power = (1u128 << exponent) as f64;
+            numbers.extend([power.next_down(), power, power.next_up(), power + 0.5, power - 0.5]);
+        }
+        for x in numbers.into_iter().flat_map(|x| [x, -x]) {
+            assert_eq!(floor(x).to_bits(), libm::floor(x).to_bits(), "{x:e}");
+        }
     }
 
     #[test]

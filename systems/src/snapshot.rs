@@ -4,11 +4,11 @@ use crate::{accelerate::Geometry, extract::Ceiling, render::Interior};
 use glam::DVec3;
 use snell_components::{
     color::Rgb,
-    light::Lamp,
+    light::{Lamp, Sampling},
     name::Name,
     settings::Settings,
     space::Ray,
-    texture::{Pattern, TexturePoint},
+    texture::Pattern,
 };
 use std::sync::Arc;
 
@@ -42,6 +42,8 @@ pub struct Lights {
     pub ambient: Rgb,
     /// All others, in the order of names.
     pub lamps: Vec<Arc<dyn Lamp>>,
+    /// How finely each is sampled; none for those without area.
+    pub sampling: Vec<Option<Sampling>>,
     /// Names of the lamps' entities, and the tags of their components.
     pub labels: Vec<(Option<Name>, &'static str)>,
 }
@@ -57,6 +59,8 @@ pub struct Materials {
     pub of_object: Vec<MaterialOfObject>,
     /// The clear bodies, by rank of the object; empty if there are none.
     pub media: Vec<Option<Medium>>,
+    /// By rank of the object, whether light passes through it anywhere or it bounds a medium; empty if none is so.
+    pub clear: Vec<bool>,
     /// Whether light passes through any material.
     pub any_transparent: bool,
     /// Whether any texture asks how much of a surface a ray stands for.
@@ -151,7 +155,7 @@ pub struct Material {
     pub color: Rgb,
     /// Multiplies the colour.
     pub texture: Option<Arc<dyn Pattern>>,
-    /// The terms of the Whitted sum that are present.
+    /// The terms of the Whitted sum that are present: light at the point, then rays that go on.
     pub effects: Box<[Effect]>,
 }
 
@@ -181,17 +185,16 @@ pub enum Effect {
     Split(Rgb),
 }
 
-impl Material {
-    /// The surface colour at a point.
+impl Effect {
+    /// Whether the term is light at the point, not a ray that goes on.
     #[must_use]
     #[inline]
-    pub fn color_at(&self, at: &TexturePoint) -> Rgb {
-        match &self.texture {
-            None => self.color,
-            Some(pattern) => self.color * pattern.color(at),
-        }
+    pub fn is_light(&self) -> bool {
+        matches!(self, Self::Ambient(_) | Self::Diffuse(_) | Self::Glossy { .. })
     }
+}
 
+impl Material {
     /// Whether the texture asks how much of the surface a ray stands for.
     #[must_use]
     pub fn is_filtered(&self) -> bool {
@@ -201,7 +204,7 @@ impl Material {
     /// Whether rays go on from the surface.
     #[must_use]
     pub fn goes_on(&self) -> bool {
-        !self.effects.iter().all(|e| matches!(e, Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. }))
+        self.effects.last().is_some_and(|effect| !effect.is_light())
     }
 
     /// Whether light passes through.

@@ -33,8 +33,14 @@ pub struct Intersection {
     pub t: f64,
     /// Rank of the object in the order of names.
     pub object: u32,
-    /// Which pool, which shape in it, and which part of the shape.
-    shape: (u32, u32, u32),
+}
+
+impl Intersection {
+    /// Of what [`Geometry::nearest`] found and the surface there.
+    #[must_use]
+    pub fn new(nearest: &Nearest, surface: Surface) -> Self {
+        Self { surface, t: nearest.hit.t, object: nearest.object }
+    }
 }
 
 /// Every shape of a scene; immutable and shared.
@@ -131,9 +137,7 @@ impl Geometry {
     #[must_use]
     pub fn closest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Intersection> {
         let nearest = self.nearest(ray, t_max, with, cost)?;
-        let surface = self.surface(&nearest, ray, with);
-        let Nearest { hit, pool, index, object } = nearest;
-        Some(Intersection { surface, t: hit.t, object, shape: (pool, index, hit.part) })
+        Some(Intersection::new(&nearest, self.surface(&nearest, ray, with)))
     }
 
     /// The surface at what [`Geometry::nearest`] found for this ray with these methods.
@@ -154,26 +158,69 @@ impl Geometry {
 
     /// How a surface that was met goes on: where a ray close by, at a distance `t`, crosses its tangent plane.
     #[must_use]
-    pub fn beside(&self, met: &Intersection, ray: &Ray, t: f64) -> Surface {
-        let (pool, index, part) = met.shape;
-        self.pools[pool as usize].surface(index, ray, Hit { t, part })
+    pub fn beside(&self, met: &Nearest, ray: &Ray, t: f64) -> Surface {
+        let Nearest { hit, pool, index, .. } = *met;
+        self.pools[pool as usize].surface(index, ray, Hit { t, ..hit })
     }
 
     /// Nearest hit with `0 < t <= t_max`; among equally near ones the object first in the order of names.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Nearest> {
+        self.nearest_by(ray, t_max, with, cost, |run, best, cost| {
+            self.pools[run.pool as usize].closest(run.first as usize..run.end as usize, ray, with, best, cost);
+        })
+    }
+
+    /// [`Geometry::nearest`] among some objects, told by their ranks.
+    #[must_use]
+    pub fn nearest_of(
+        &self,
+        objects: impl Fn(u32) -> bool,
+        ray: &Ray,
+        t_max: f64,
+        with: &Methods,
+        cost: &mut Cost,
+    ) -> Option<Nearest> {
+        self.nearest_by(ray, t_max, with, cost, |run, best, cost| {
+            for (index, pool) in self.shapes_of(run, &objects) {
+                pool.closest(index..index + 1, ray, with, best, cost);
+            }
+        })
+    }
+
+    /// The shapes of a run that belong to some objects, and their pool.
+    fn shapes_of(&self, run: &Run, objects: impl Fn(u32) -> bool) -> impl Iterator<Item = (usize, &dyn ErasedPool)> {
+        let pool = &*self.pools[run.pool as usize];
+        let owners = pool.objects();
+        (run.first as usize..run.end as usize).filter(move |&i| objects(owners[i])).map(move |i| (i, pool))
+    }
+
+    /// The nearest hit, where `search` looks through a run.
+    #[inline]
+    fn nearest_by(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        with: &Methods,
+        cost: &mut Cost,
+        search: impl Fn(&Run, &mut Best, &mut Cost),
+    ) -> Option<Nearest> {
         if !ray.is_valid() {
             return None;
         }
         let mut best = Best { pool: 0, limit: t_max, nearest: None };
+        let search = |run: &Run, best: &mut Best, cost: &mut Cost| {
+            best.pool = run.pool;
+            search(run, best, cost);
+        };
         for run in &self.unbounded {
-            self.search(run, ray, with, &mut best, cost);
+            search(run, &mut best, cost);
         }
         match (&self.tree, with.accelerator) {
             (Some(tree), Accelerator::Tree) => tree.walk(ray, best.limit, cost, |leaf, _, cost| {
                 let (begin, end) = self.leaf_runs[leaf.start];
                 for run in &self.runs[begin as usize..end as usize] {
-                    self.search(run, ray, with, &mut best, cost);
+                    search(run, &mut best, cost);
                 }
                 best.limit
             }),
@@ -181,34 +228,56 @@ impl Geometry {
                 let Spheres { tree, runs } = self.spheres();
                 tree.walk(ray, best.limit, cost, |own, _, cost| {
                     for run in &runs[own] {
-                        self.search(run, ray, with, &mut best, cost);
+                        search(run, &mut best, cost);
                     }
                     best.limit
                 });
             }
             _ => {
                 for run in &self.runs {
-                    self.search(run, ray, with, &mut best, cost);
+                    search(run, &mut best, cost);
                 }
             }
         }
         best.nearest
     }
 
-    fn search(&self, run: &Run, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
-        best.pool = run.pool;
-        self.pools[run.pool as usize].closest(run.first as usize..run.end as usize, ray, with, best, cost);
-    }
-
     /// Whether anything is hit with `0 < t < t_max`.
     #[must_use]
     pub fn blocked(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
+        self.blocked_if(ray, t_max, with, cost, |run, cost| {
+            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, with, cost)
+        })
+    }
+
+    /// [`Geometry::blocked`] by some objects, told by their ranks.
+    #[must_use]
+    pub fn blocked_by(
+        &self,
+        objects: impl Fn(u32) -> bool,
+        ray: &Ray,
+        t_max: f64,
+        with: &Methods,
+        cost: &mut Cost,
+    ) -> bool {
+        self.blocked_if(ray, t_max, with, cost, |run, cost| {
+            self.shapes_of(run, &objects).any(|(index, pool)| pool.blocks(index..index + 1, ray, t_max, with, cost))
+        })
+    }
+
+    /// Whether any run `blocks` the ray.
+    #[inline]
+    fn blocked_if(
+        &self,
+        ray: &Ray,
+        t_max: f64,
+        with: &Methods,
+        cost: &mut Cost,
+        blocks: impl Fn(&Run, &mut Cost) -> bool,
+    ) -> bool {
         if !ray.is_valid() {
             return false;
         }
-        let blocks = |run: &Run, cost: &mut Cost| {
-            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, with, cost)
-        };
         if self.unbounded.iter().any(|run| blocks(run, cost)) {
             return true;
         }

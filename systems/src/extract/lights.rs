@@ -62,9 +62,11 @@ pub fn gather_lights(
     let mut ambient: Vec<_> = ambient.iter().map(|(entity, name, light)| (Rank::of(entity, name), light)).collect();
     ambient.sort_unstable_by(|a, b| a.0.cmp(&b.0));
     let label = |rank: &Rank, tag| (rank.name().cloned(), tag);
+    let shown: Vec<Arc<dyn Lamp>> = lamps.iter().flat_map(|(_, lamps)| lamps.0.values().cloned()).collect();
     parts.lights = Arc::new(Lights {
         labels: lamps.iter().flat_map(|(rank, lamps)| lamps.0.keys().map(|tag| label(rank, *tag))).collect(),
         ambient: ambient.iter().fold(Rgb::ZERO, |sum, (_, light)| sum + light.intensity),
-        lamps: lamps.into_iter().flat_map(|(_, lamps)| lamps.0.values().cloned()).collect(),
+        sampling: shown.iter().map(|lamp| lamp.sampling()).collect(),
+        lamps: shown,
     });
 }

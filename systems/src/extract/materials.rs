@@ -201,12 +201,22 @@ pub fn gather_materials(
         of_object.push(material);
         media.push(filling.medium());
     }
+    let through = |number: &u32| all[*number as usize].is_transparent();
+    let passes = |material: &MaterialOfObject| match material {
+        MaterialOfObject::Whole(number) => through(number),
+        MaterialOfObject::Slots(slots) => slots.iter().any(through),
+    };
+    let mut clear: Vec<bool> =
+        of_object.iter().zip(&media).map(|(of, medium)| medium.is_some() || passes(of)).collect();
+    if !clear.contains(&true) {
+        clear.clear();
+    }
     if media.iter().all(Option::is_none) {
         media.clear();
     }
     let any_transparent = all.iter().any(Material::is_transparent);
     let any_filtered = all.iter().any(Material::is_filtered);
-    parts.materials = Arc::new(Materials { all, names, of_object, media, any_transparent, any_filtered });
+    parts.materials = Arc::new(Materials { all, names, of_object, media, clear, any_transparent, any_filtered });
 }
 
 /// Ambient and diffuse strengths of things without a material, and of materials without a term of light.

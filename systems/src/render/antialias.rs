@@ -76,6 +76,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
     }
 
     /// The mean over `n` by `n` rays, column by column.
+    #[inline(always)]
     fn grid(&mut self, n: u32, x: u32, y: u32) -> Rgb {
         let share = 1.0 / f64::from(n * n);
         let place = |i: u32| (f64::from(i) + 0.5) / f64::from(n) - 0.5;

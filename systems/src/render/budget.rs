@@ -78,7 +78,7 @@ impl<'a> Cut<'a> {
 pub(super) fn lamp_error(snapshot: &Snapshot, weight: Rgb) -> Option<f64> {
     let error = snapshot.settings.error;
     (error > 0.0).then(|| {
-        let lamps = snapshot.lights.lamps.iter().filter(|lamp| lamp.sampling().is_some()).count();
+        let lamps = snapshot.lights.sampling.iter().flatten().count();
         0.25 * error / (lamps as f64 * weight.max_element()).sqrt()
     })
 }

@@ -12,7 +12,7 @@ pub struct Counts {
     pub mirror: u64,
     /// Rays let through a surface.
     pub transmitted: u64,
-    /// Rays toward a light; one that passes through transparent things counts at every surface.
+    /// Rays toward a light; one that nothing opaque blocks counts again at every transparent surface it passes.
     pub shadow: u64,
     /// Mirrored and transmitted rays not followed because they weigh less than the cut-off, or bring too little for the
     /// error of the setting.

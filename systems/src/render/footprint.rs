@@ -10,7 +10,7 @@
 
 use super::{observe::Way, shade::Point, trace::Branch};
 use crate::{
-    accelerate::{Geometry, Intersection},
+    accelerate::{Geometry, Nearest},
     snapshot::Snapshot,
 };
 use glam::{DVec2, DVec3};
@@ -28,7 +28,7 @@ pub(super) trait Beside: Copy {
     fn start(snapshot: &Snapshot, x: f64, y: f64, spacing: f64) -> Self;
 
     /// At the surface that the ray met.
-    fn meet(self, point: &Point<'_>, met: &Intersection) -> Self::Met;
+    fn meet(self, point: &Point<'_>, met: &Nearest) -> Self::Met;
 
     /// How much of the surface the ray stands for.
     fn footprint(met: &Self::Met, surface: &Surface) -> Footprint;
@@ -42,7 +42,7 @@ impl Beside for () {
 
     fn start(_: &Snapshot, _: f64, _: f64, _: f64) -> Self {}
 
-    fn meet(self, _: &Point<'_>, _: &Intersection) {}
+    fn meet(self, _: &Point<'_>, _: &Nearest) {}
 
     fn footprint(&(): &(), _: &Surface) -> Footprint {
         Footprint::default()
@@ -64,7 +64,7 @@ impl Beside for Neighbours {
         [(x + step, y), (x, y + step)].map(|(x, y)| Some(view.ray(x, y, settings.width, settings.height)))
     }
 
-    fn meet(self, point: &Point<'_>, met: &Intersection) -> Self::Met {
+    fn meet(self, point: &Point<'_>, met: &Nearest) -> Self::Met {
         if !point.material.is_filtered() && !point.material.goes_on() {
             return [None; 2];
         }
@@ -95,7 +95,7 @@ impl Beside for Neighbours {
 }
 
 /// The surface where a ray beside that of `point` crosses its tangent plane, its normals turned as those of the point.
-fn surface_beside(geometry: &Geometry, point: &Point<'_>, met: &Intersection, ray: &Ray) -> Option<Surface> {
+fn surface_beside(geometry: &Geometry, point: &Point<'_>, met: &Nearest, ray: &Ray) -> Option<Surface> {
     let Surface { normal, point: at, .. } = point.surface;
     let t = normal.dot(at - ray.origin) / normal.dot(ray.direction);
     if !t.is_finite() {

@@ -13,8 +13,15 @@ use smallvec::SmallVec;
 use snell_components::{color::Rgb, math, method::Methods, primitive::Cost, space::Ray};
 
 /// The clear bodies around a point, by rank of the object, in the order in which they were entered.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Debug, Default, PartialEq, Eq)]
 pub struct Interior(SmallVec<[u32; 4]>);
+
+impl Clone for Interior {
+    fn clone(&self) -> Self {
+        // As a block of memory; the list's own clone takes one after the other.
+        Self(SmallVec::from_slice(&self.0))
+    }
+}
 
 /// What lies on the two sides of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +70,7 @@ impl Interior {
 
     /// The bodies on the other side of a surface of `object`.
     pub(super) fn across(&self, object: u32, entering: bool) -> Self {
-        let mut bodies = self.0.clone();
+        let Self(mut bodies) = self.clone();
         if entering {
             bodies.push(object);
         } else if let Some(last) = bodies.iter().rposition(|&body| body == object) {

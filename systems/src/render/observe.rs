@@ -12,6 +12,9 @@ use snell_components::{color::Rgb, light::Illumination, space::Ray};
 /// [`Observer::added`] since [`Observer::sample`]; the pixel is the sum, in this order, of the light of a ray times its
 /// share over all calls of [`Observer::shared`].
 pub trait Observer {
+    /// Whether it is told anything: what only an observer wants to know is worked out for those that are.
+    const WATCHES: bool = true;
+
     /// The tree of another ray through the pixel begins.
     fn sample(&mut self) {}
 
@@ -42,7 +45,9 @@ pub trait Observer {
     fn dropped(&mut self, _ray: &Forward<'_>, _why: Dropped) {}
 }
 
-impl Observer for () {}
+impl Observer for () {
+    const WATCHES: bool = false;
+}
 
 /// How a ray came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -8,10 +8,9 @@ use super::{
     optics,
 };
 use crate::{
-    accelerate::Intersection,
-    snapshot::{Effect, Material, Snapshot},
+    accelerate::{Geometry, Nearest},
+    snapshot::{Effect, Lights, Material, MaterialOfObject, Snapshot},
 };
-use core::cell::LazyCell;
 use glam::{DVec2, DVec3};
 use snell_components::{
     color::Rgb,
@@ -45,18 +44,29 @@ impl<'a> Point<'a> {
         snapshot: &'a Snapshot,
         methods: &'a Methods,
         ray: &Ray,
-        met: Intersection,
+        met: &Nearest,
         interior: &'a Interior,
         key: Key,
     ) -> Self {
-        let mut surface = met.surface;
+        let Snapshot { geometry, materials, .. } = snapshot;
+        let (mut surface, material) = match &materials.of_object[met.object as usize] {
+            MaterialOfObject::Whole(number) => {
+                let material = &materials.all[*number as usize];
+                let textured = material.texture.is_some();
+                let surface = if textured { Geometry::surface } else { Geometry::surface_without_uv };
+                (surface(geometry, met, ray, methods), material)
+            }
+            MaterialOfObject::Slots(_) => {
+                let surface = geometry.surface(met, ray, methods);
+                (surface, materials.at(met.object, surface.slot))
+            }
+        };
         let entering = surface.normal.dot(ray.direction) < 0.0;
         if !entering {
             surface.normal = -surface.normal;
             surface.shading_normal = -surface.shading_normal;
         }
-        let material = snapshot.materials.at(met.object, surface.slot);
-        let (direction, travelled) = (ray.direction, met.t);
+        let (direction, travelled) = (ray.direction, met.hit.t);
         Self { snapshot, methods, direction, travelled, surface, material, entering, interior, key }
     }
 
@@ -69,18 +79,20 @@ impl<'a> Point<'a> {
         observer: &mut O,
     ) -> Rgb {
         let mut sum = Rgb::ZERO;
-        // Looked up once, and only if a term needs it.
-        let color = LazyCell::new(|| self.color(footprint()));
-        for effect in &self.material.effects {
+        let lights = self.material.effects.iter().take_while(|effect| effect.is_light());
+        if lights.clone().next().is_none() {
+            return sum;
+        }
+        let color = self.color(footprint);
+        for effect in lights {
             let (factor, light) = match *effect {
-                Effect::Ambient(strength) => (strength * *color, self.snapshot.lights.ambient),
+                Effect::Ambient(strength) => (strength * color, self.snapshot.lights.ambient),
                 Effect::Diffuse(strength) => {
-                    let factor = strength * *color;
+                    let factor = strength * color;
                     let term = |light: &Arriving| light.intensity * light.cosine;
                     (factor, self.over_lights(weight * factor, counts, observer, term))
                 }
                 Effect::Glossy { diffuse, highlight, exponent } => {
-                    let color = *color;
                     let light = self.over_lights(weight, counts, observer, |light| {
                         // Where the mirrored light points away from the viewer there is no highlight, whatever the
                         // exponent.
@@ -99,8 +111,15 @@ impl<'a> Point<'a> {
         sum
     }
 
-    fn color(&self, footprint: Footprint) -> Rgb {
-        self.material.color_at(&TexturePoint { uv: self.surface.uv, point: self.surface.point, footprint })
+    fn color(&self, footprint: impl FnOnce() -> Footprint) -> Rgb {
+        let Material { color, texture, .. } = self.material;
+        match texture {
+            None => *color,
+            Some(pattern) => {
+                let Surface { uv, point, .. } = self.surface;
+                *color * pattern.color(&TexturePoint { uv, point, footprint: footprint() })
+            }
+        }
     }
 
     /// Sum of a term over the lights that reach the point; `weight` is what it is multiplied by in the pixel.
@@ -113,7 +132,8 @@ impl<'a> Point<'a> {
     ) -> Rgb {
         let start = self.surface.departure(self.surface.normal, self.travelled);
         let mut sum = Rgb::ZERO;
-        for (lamp, n) in self.snapshot.lights.lamps.iter().zip(0..) {
+        let Lights { lamps, sampling, .. } = &*self.snapshot.lights;
+        for ((lamp, sampling), n) in lamps.iter().zip(sampling).zip(0..) {
             let mut one = |sample| {
                 let light = lamp.illuminate(start, sample);
                 let (visible, arriving) = match &light {
@@ -123,7 +143,7 @@ impl<'a> Point<'a> {
                 observer.looked(&Look { lamp: n, from: start, light: light.as_ref(), visible });
                 arriving.map(|arriving| term(&arriving))
             };
-            let light = match lamp.sampling() {
+            let light = match *sampling {
                 None => one(DVec2::ZERO).unwrap_or(Rgb::ZERO),
                 Some(sampling) => {
                     let error = lamp_error(self.snapshot, weight).unwrap_or(sampling.error);
@@ -140,13 +160,14 @@ impl<'a> Point<'a> {
 
     /// The share of a light that gets through to the point, if it shines on this side, and what arrives, if anything does.
     fn arriving(&self, start: DVec3, light: &Illumination, counts: &mut Counts) -> (Option<Rgb>, Option<Arriving>) {
-        let direction = light.to_light.normalize();
+        let length = light.to_light.length();
+        let direction = light.to_light * (1.0 / length);
         let cosine = self.surface.shading_normal.dot(direction);
         if cosine <= 0.0 || cosine.is_nan() {
             return (None, None);
         }
         let visible = if light.shadows && self.snapshot.settings.shadows {
-            self.visibility(Ray { origin: start, direction: light.to_light }, light.distance, counts)
+            self.visibility(Ray { origin: start, direction: light.to_light }, length, light.distance, counts)
         } else {
             Rgb::ONE
         };
@@ -154,63 +175,80 @@ impl<'a> Point<'a> {
         (Some(visible), (visible != Rgb::ZERO).then(arriving))
     }
 
-    /// Share of a light that gets through to the start of `ray`, which ends at the light: every transparent surface in
-    /// between weakens it, as do the bodies it goes through, and the first opaque surface ends it. The ray goes
-    /// straight, even where a view ray would bend.
-    fn visibility(&self, mut ray: Ray, distance: f64, counts: &mut Counts) -> Rgb {
+    /// Share of a light that gets through to the start of `ray`, whose direction is so long, and which ends at the
+    /// light: none if anything opaque is in between; else every transparent surface weakens it, as do the bodies it goes
+    /// through. The ray goes straight, even where a view ray would bend.
+    #[inline]
+    fn visibility(&self, ray: Ray, length: f64, distance: f64, counts: &mut Counts) -> Rgb {
         let Snapshot { geometry, materials, .. } = self.snapshot;
+        let clear = &materials.clear;
+        let mut cost = Cost::default();
+        counts.shadow += 1;
+        let rest = short_of_the_light(&ray, length, distance);
+        let blocked = if clear.is_empty() {
+            geometry.blocked(&ray, rest, self.methods, &mut cost)
+        } else {
+            geometry.blocked_by(|object| !clear[object as usize], &ray, rest, self.methods, &mut cost)
+        };
+        counts.add(cost);
+        if blocked {
+            Rgb::ZERO
+        } else if clear.is_empty() {
+            Rgb::ONE
+        } else {
+            self.through_clear(ray, rest, distance, counts)
+        }
+    }
+
+    /// Share of a light that gets through all that is clear on the way, up to `rest` of the `distance` to the light.
+    fn through_clear(&self, mut ray: Ray, mut rest: f64, distance: f64, counts: &mut Counts) -> Rgb {
+        let Snapshot { geometry, materials, .. } = self.snapshot;
+        let is_clear = |object: u32| materials.clear[object as usize];
         let mut cost = Cost::default();
         let mut visible = Rgb::ONE;
-        let mut rest = short_of_the_light(&ray, distance);
-        if !materials.any_transparent && materials.media.is_empty() {
-            counts.shadow += 1;
-            if geometry.blocked(&ray, rest, self.methods, &mut cost) {
-                visible = Rgb::ZERO;
-            }
-            counts.add(cost);
-            return visible;
-        }
         let end = ray.at(distance);
         let toward = ray.direction;
         let mut interior = self.interior.clone();
         while visible != Rgb::ZERO {
-            counts.shadow += 1;
-            let met = geometry.closest(&ray, rest, self.methods, &mut cost).filter(|met| met.t < rest);
+            let met = geometry.nearest_of(is_clear, &ray, rest, self.methods, &mut cost);
+            let met = met.filter(|met| met.hit.t < rest);
             let length = ray.direction.length();
             if !materials.media.is_empty() {
-                let t = met.map_or(rest, |met| met.t);
+                let t = met.map_or(rest, |met| met.hit.t);
                 visible *= interior::transmittance(interior.medium(materials), t * length);
             }
             let Some(met) = met else { break };
-            visible *= self.passes(&met, &ray, &mut interior);
-            ray.origin = met.surface.departure(ray.direction, met.t * length);
+            let surface = geometry.surface_without_uv(&met, &ray, self.methods);
+            visible *= self.passes(met.object, &surface, &ray, &mut interior);
+            ray.origin = surface.departure(ray.direction, met.hit.t * length);
             if rest.is_finite() {
                 // Toward the same end from the new start.
                 ray.direction = end - ray.origin;
-                rest = short_of_the_light(&ray, 1.0);
+                rest = short_of_the_light(&ray, ray.direction.length(), 1.0);
                 // The step away from the surface may pass the light: turning back would go on for ever.
                 if ray.direction.dot(toward) <= 0.0 {
                     break;
                 }
             }
+            counts.shadow += u64::from(visible != Rgb::ZERO);
         }
         counts.add(cost);
         visible
     }
 
     /// Share of the light that a surface lets through on a straight way; notes the bodies entered and left.
-    fn passes(&self, met: &Intersection, ray: &Ray, interior: &mut Interior) -> Rgb {
+    fn passes(&self, object: u32, surface: &Surface, ray: &Ray, interior: &mut Interior) -> Rgb {
         let materials = &self.snapshot.materials;
-        let cosine = met.surface.normal.dot(ray.direction) / ray.direction.length();
+        let cosine = surface.normal.dot(ray.direction) / ray.direction.length();
         let entering = cosine < 0.0;
         let mut eta = 1.0;
-        if materials.medium(met.object).is_some() {
-            let sides = interior.sides(met.object, entering, materials);
-            *interior = interior.across(met.object, entering);
+        if materials.medium(object).is_some() {
+            let sides = interior.sides(object, entering, materials);
+            *interior = interior.across(object, entering);
             let Some(Sides { before, after }) = sides else { return Rgb::ONE };
             eta = straight_eta(before.index, after.index);
         }
-        materials.at(met.object, met.surface.slot).effects.iter().fold(Rgb::ZERO, |sum, effect| {
+        materials.at(object, surface.slot).effects.iter().fold(Rgb::ZERO, |sum, effect| {
             sum + match *effect {
                 Effect::Through(strength) | Effect::Refract(strength) => strength,
                 Effect::Split(part) => part * (1.0 - optics::fresnel(cosine.abs(), eta)),
@@ -273,12 +311,12 @@ struct Arriving {
 }
 
 /// Where the way to a light at `distance` ends: before the rounding error of a surface that the light stands on, which
-/// must not hide it.
-fn short_of_the_light(ray: &Ray, distance: f64) -> f64 {
+/// must not hide it. `length` is that of the ray's direction.
+#[inline]
+fn short_of_the_light(ray: &Ray, length: f64, distance: f64) -> f64 {
     if distance.is_infinite() {
         return distance;
     }
-    let length = ray.direction.length();
     let reach = ray.origin.abs().max_element() + length * distance;
     distance - OFFSET_ULPS * f64::EPSILON * reach / length
 }

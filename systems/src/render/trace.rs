@@ -10,7 +10,10 @@ use super::{
     optics,
     shade::{Point, straight_eta},
 };
-use crate::snapshot::{Effect, Snapshot};
+use crate::{
+    accelerate::Intersection,
+    snapshot::{Effect, Snapshot},
+};
 use glam::DVec3;
 use smallvec::SmallVec;
 use snell_components::{
@@ -71,34 +74,40 @@ pub(super) fn light_along<B: Beside, O: Observer>(
     let mut sum = Rgb::ZERO;
     let mut first = None;
     let mut cut = Cut::of(snapshot);
-    let mut pending: SmallVec<[Pending<B>; 8]> = SmallVec::new();
     let interior = snapshot.inside.clone();
     let (way, weight) = (Way::Camera, Rgb::ONE);
     observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
-    pending.push(Pending { ray, beside, weight, depth: 0, interior, wavelength: None, key });
-    while let Some(Pending { ray, beside, mut weight, depth, interior, wavelength, key }) = pending.pop() {
+    // The top of the stack is kept apart: most rays have one follower at most.
+    let mut top = Some(Pending { ray, beside, weight, depth: 0, interior, wavelength: None, key });
+    let mut below: SmallVec<[Pending<B>; 8]> = SmallVec::new();
+    while let Some(Pending { ray, beside, mut weight, depth, interior, wavelength, key }) =
+        top.take().or_else(|| below.pop())
+    {
         let mut cost = Cost::default();
-        let met = snapshot.geometry.closest(&ray, f64::INFINITY, methods, &mut cost);
+        let met = snapshot.geometry.nearest(&ray, f64::INFINITY, methods, &mut cost);
         counts.add(cost);
         if !materials.media.is_empty() {
-            let travelled = met.map_or(f64::INFINITY, |met| met.t);
+            let travelled = met.map_or(f64::INFINITY, |met| met.hit.t);
             weight *= interior::transmittance(interior.medium(materials), travelled);
         }
-        observer.traced(&Traced { met: met.as_ref(), weight });
+        if O::WATCHES {
+            let surface = |met| Intersection::new(met, snapshot.geometry.surface(met, &ray, methods));
+            observer.traced(&Traced { met: met.as_ref().map(surface).as_ref(), weight });
+        }
         let Some(met) = met else {
             sum += weight * settings.background;
             observer.added(Added::Background, weight, settings.background);
             continue;
         };
-        let point = Point::new(snapshot, methods, &ray, met, &interior, key);
+        let point = Point::new(snapshot, methods, &ray, &met, &interior, key);
         let sides = materials.medium(met.object).map(|_| interior.sides(met.object, point.entering, materials));
         if sides == Some(None) {
             // The surface lies inside a body that counts before its own: it is not there.
-            let ray = Ray { origin: point.surface.departure(ray.direction, met.t), direction: ray.direction };
+            let ray = Ray { origin: point.surface.departure(ray.direction, met.hit.t), direction: ray.direction };
             let interior = interior.across(met.object, point.entering);
             let (way, share) = (Way::Onward, Rgb::ONE);
             observer.put_forward(&Forward { way, ray: &ray, share, weight, wavelength });
-            pending.push(Pending { ray, beside, weight, depth, interior, wavelength, key });
+            top = Some(Pending { ray, beside, weight, depth, interior, wavelength, key });
             continue;
         }
         if depth == 0 {
@@ -109,6 +118,9 @@ pub(super) fn light_along<B: Beside, O: Observer>(
         sum += weight * local;
         observer.added(Added::Surface, weight, local);
 
+        if !point.material.goes_on() {
+            continue;
+        }
         let branches = point.branches(sides.flatten(), wavelength);
         for (n, branch) in branches.into_iter().enumerate().rev() {
             let weight = weight * branch.share;
@@ -137,7 +149,8 @@ pub(super) fn light_along<B: Beside, O: Observer>(
                 // Lights count from zero up, branches from the top down.
                 let key = key.child(u32::MAX - n as u32);
                 let beside = B::go_on(&beside, &point, &branch);
-                pending.push(Pending { ray, beside, weight, depth: depth + 1, interior, wavelength, key });
+                let next = Pending { ray, beside, weight, depth: depth + 1, interior, wavelength, key };
+                below.extend(top.replace(next));
             }
         }
     }
