@@ -3,7 +3,7 @@
 use crate::{
     frame::{self, draw},
     measure::{Case, Row, interleave},
-    subject::field,
+    subject::sparse,
 };
 use serde::Serialize;
 use snell::{Snapshot, components::math};
@@ -23,8 +23,7 @@ pub(crate) struct Fit {
 /// Frames of the same 640×480 pixels of sparse fields, from a thousand to ten million triangles.
 pub(crate) fn with_triangles(rounds: usize) -> (Vec<Row>, Fit) {
     let counts = [1_000, 10_000, 100_000, 1_000_000, 10_000_000];
-    let snapshots: Vec<_> =
-        counts.iter().map(|&count| frame::of_field(&field(count, 0.5, false), (640, 480))).collect();
+    let snapshots: Vec<_> = counts.iter().map(|&count| frame::of_field(&sparse(count), (640, 480))).collect();
     let named = counts.iter().map(|count| format!("sparse, {count} triangles")).zip(&snapshots);
     let rows = interleave(named.map(case).collect(), rounds);
     let points = counts.iter().zip(&rows).map(|(&count, row)| (math::log2(f64::from(count)), row.cpu_seconds));
@@ -35,7 +34,7 @@ pub(crate) fn with_triangles(rounds: usize) -> (Vec<Row>, Fit) {
 /// Frames of 40 000 triangles in pictures of more and more pixels.
 pub(crate) fn with_pixels(rounds: usize) -> (Vec<Row>, Fit) {
     let sizes = [(200, 150), (400, 300), (600, 450), (800, 600), (1200, 900)];
-    let mesh = field(40_000, 0.5, false);
+    let mesh = sparse(40_000);
     let snapshots = sizes.map(|size| frame::of_field(&mesh, size));
     let named = sizes.iter().map(|(width, height)| format!("sparse, {width}x{height}")).zip(&snapshots);
     let rows = interleave(named.map(case).collect(), rounds);

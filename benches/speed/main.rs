@@ -7,7 +7,6 @@ mod growth;
 mod kernel;
 mod load;
 mod measure;
-mod random;
 mod rays;
 mod record;
 mod subject;
@@ -15,7 +14,7 @@ mod subject;
 use clap::{Parser, Subcommand, ValueEnum};
 use measure::show;
 use std::{error::Error, path::PathBuf, process::ExitCode};
-use subject::{Subject, field, scanned, waves};
+use subject::{Subject, chaotic, scanned, sparse, waves};
 
 /// How fast Snell builds, traces, draws and loads, here and now.
 #[derive(Parser)]
@@ -103,8 +102,7 @@ fn measure(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
         show(&more);
         rows.extend(more);
     };
-    // 30 000 triangles apart from each other, and as many far larger than the space each has to itself.
-    let mut subjects: Vec<Subject> = vec![waves(708), field(30_000, 0.5, false), field(30_000, 4.0, true)];
+    let mut subjects: Vec<Subject> = vec![waves(708), sparse(30_000), chaotic(30_000)];
     subjects.extend(scanned());
     if wanted(Bench::Build) {
         add(kernel::build(&subjects, rounds)?);

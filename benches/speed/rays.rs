@@ -5,10 +5,9 @@
 //! those from the surface start a ten-thousandth of the mesh's diagonal above it, so that no kernel's rounding decides
 //! what is hit.
 
-use crate::random::Random;
 use snell::{
     Methods,
-    components::{math, primitive::Cost, space::Ray},
+    components::{math, primitive::Cost, random::SplitMix64, space::Ray},
     prelude::DVec3,
     systems::accelerate::Geometry,
 };
@@ -94,7 +93,7 @@ impl Rays {
         let eye = center + 1.15 * size * back;
         let light = center + size * DVec3::new(1.2, 1.6, 0.9);
         let half = math::tan_degrees(19.0);
-        let mut random = Random(977);
+        let mut random = SplitMix64::new(977);
         let mut sets = Kind::ALL.map(|kind| Self { kind, rays: vec![] });
         let [primary, shadow, mirror, diffuse] = &mut sets;
         let screen = |i: u32| (2.0 * (f64::from(i) + 0.5) / f64::from(EDGE) - 1.0) * half;
@@ -184,7 +183,7 @@ fn file(prefix: &Path, kind: Kind) -> PathBuf {
 }
 
 /// A direction about a normal whose density goes with the cosine of the angle between them.
-fn cosine(normal: DVec3, random: &mut Random) -> DVec3 {
+fn cosine(normal: DVec3, random: &mut SplitMix64) -> DVec3 {
     let (radius, angle) = (random.unit(), 360.0 * random.unit());
     let (sin, cos) = math::sin_cos_degrees(angle);
     let (x, y) = normal.any_orthonormal_pair();

@@ -1,10 +1,9 @@
 //! Meshes to measure with.
 
-use crate::random::Random;
 use snell::{
     Renderer, Snapshot,
     components::math,
-    prelude::{DAffine3, DVec3, Mesh, Name, Primitive, TriangleMesh},
+    prelude::{Arrangement, DAffine3, DVec3, Figure, Mesh, Name, Primitive, TriangleField, TriangleMesh},
 };
 use std::{
     fs,
@@ -104,22 +103,23 @@ fn number<'a, T: std::str::FromStr>(words: &mut impl Iterator<Item = &'a str>) -
     words.next().and_then(|word| word.parse().ok()).expect("a number")
 }
 
-/// Triangles of edges about `size` in a cube, as many along each edge as there are units: on a grid, or at random.
-pub(crate) fn field(count: u32, size: f64, random: bool) -> Subject {
-    let along = (1..).find(|n| n * n * n >= count).unwrap_or(1);
-    let mut numbers = Random(u64::from(count));
-    let mut positions = Vec::with_capacity(3 * count as usize);
-    for n in 0..count {
-        let cell = [n % along, n / along % along, n / along / along];
-        let center = cell.map(|n| if random { numbers.unit() * f64::from(along) } else { f64::from(n) + 0.5 });
-        for _ in 0..3 {
-            positions.push(center.map(|x| (x + size * (2.0 * numbers.unit() - 1.0)) as f32));
-        }
-    }
+/// Triangles on a grid, their edges half the spacing.
+pub(crate) fn sparse(count: u32) -> Subject {
+    field("sparse", TriangleField { count, size: 0.5, ..TriangleField::default() })
+}
+
+/// Triangles at random, their edges eight times the space each has.
+pub(crate) fn chaotic(count: u32) -> Subject {
+    field("chaotic", TriangleField { count, size: 8.0, arrangement: Arrangement::Random, ..TriangleField::default() })
+}
+
+fn field(name: &str, field: TriangleField) -> Subject {
+    let mesh = field.triangles().expect("a sound mesh");
+    let corners = (0..mesh.len()).flat_map(|triangle| mesh.corners(triangle));
     Subject {
-        name: format!("{}, {count}", if random { "chaotic" } else { "sparse" }),
-        positions,
-        triangles: (0..count).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect(),
+        name: format!("{name}, {}", field.count),
+        positions: corners.map(|corner| corner.as_vec3().to_array()).collect(),
+        triangles: (0..field.count).map(|n| [3 * n, 3 * n + 1, 3 * n + 2]).collect(),
     }
 }
 

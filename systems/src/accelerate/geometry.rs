@@ -1,6 +1,7 @@
 //! Every shape of a scene, and the tree over them.
 
 use super::pool::{Best, ErasedPool, Nearest};
+use core::ops::Range;
 use snell_components::{
     bvh::{Box32, Bvh},
     method::{Accelerator, Methods, Precision},
@@ -22,6 +23,14 @@ struct Run {
     pool: u32,
     first: u32,
     end: u32,
+    /// The object of the first shape.
+    owner: u32,
+}
+
+impl Run {
+    fn range(&self) -> Range<usize> {
+        self.first as usize..self.end as usize
+    }
 }
 
 /// Where a ray met an object.
@@ -97,7 +106,11 @@ impl Geometry {
                 }
             }
         }
-        let whole = |(pool, order): (usize, &Vec<u32>)| Run { pool: pool as u32, first: 0, end: order.len() as u32 };
+        let owner = |pool: usize, order: &[u32]| order.first().map_or(0, |&i| pools[pool].objects()[i as usize]);
+        let whole = |(pool, order): (usize, &Vec<u32>)| {
+            let owner = owner(pool, order);
+            Run { pool: pool as u32, first: 0, end: order.len() as u32, owner }
+        };
         let unbounded: Vec<Run> = orders.iter().enumerate().map(whole).filter(|run| run.end > 0).collect();
 
         let tree = Bvh::build(boxes.into_iter(), LEAF);
@@ -113,7 +126,7 @@ impl Geometry {
                 let at = order.len() as u32;
                 match runs[begin..].last_mut() {
                     Some(run) if run.pool == pool => run.end += 1,
-                    _ => runs.push(Run { pool, first: at, end: at + 1 }),
+                    _ => runs.push(Run { pool, first: at, end: at + 1, owner: owner(pool as usize, &[index]) }),
                 }
                 order.push(index);
             }
@@ -167,7 +180,7 @@ impl Geometry {
     #[must_use]
     pub fn nearest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Nearest> {
         self.nearest_by(ray, t_max, with, cost, |run, best, cost| {
-            self.pools[run.pool as usize].closest(run.first as usize..run.end as usize, ray, with, best, cost);
+            self.pools[run.pool as usize].closest(run.range(), ray, with, best, cost);
         })
     }
 
@@ -182,17 +195,22 @@ impl Geometry {
         cost: &mut Cost,
     ) -> Option<Nearest> {
         self.nearest_by(ray, t_max, with, cost, |run, best, cost| {
-            for (index, pool) in self.shapes_of(run, &objects) {
-                pool.closest(index..index + 1, ray, with, best, cost);
+            for run in self.parts(run, &objects) {
+                self.pools[run.pool as usize].closest(run.range(), ray, with, best, cost);
             }
         })
     }
 
-    /// The shapes of a run that belong to some objects, and their pool.
-    fn shapes_of(&self, run: &Run, objects: impl Fn(u32) -> bool) -> impl Iterator<Item = (usize, &dyn ErasedPool)> {
-        let pool = &*self.pools[run.pool as usize];
-        let owners = pool.objects();
-        (run.first as usize..run.end as usize).filter(move |&i| objects(owners[i])).map(move |i| (i, pool))
+    /// The shapes of a run that belong to some objects, each a run of its own.
+    #[inline]
+    fn parts(&self, run: &Run, objects: impl Fn(u32) -> bool) -> impl Iterator<Item = Run> {
+        let Run { pool, first, end, owner } = *run;
+        // Most runs are of one shape.
+        let rest = if end - first > 1 { self.pools[pool as usize].objects() } else { &[] };
+        let owner = move |i: u32| if i == first { owner } else { rest[i as usize] };
+        (first..end)
+            .map(move |i| Run { pool, first: i, end: i + 1, owner: owner(i) })
+            .filter(move |run| objects(run.owner))
     }
 
     /// The nearest hit, where `search` looks through a run.
@@ -246,7 +264,7 @@ impl Geometry {
     #[must_use]
     pub fn blocked(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
         self.blocked_if(ray, t_max, with, cost, |run, cost| {
-            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, with, cost)
+            self.pools[run.pool as usize].blocks(run.range(), ray, t_max, with, cost)
         })
     }
 
@@ -261,7 +279,8 @@ impl Geometry {
         cost: &mut Cost,
     ) -> bool {
         self.blocked_if(ray, t_max, with, cost, |run, cost| {
-            self.shapes_of(run, &objects).any(|(index, pool)| pool.blocks(index..index + 1, ray, t_max, with, cost))
+            let blocks = |run: Run| self.pools[run.pool as usize].blocks(run.range(), ray, t_max, with, cost);
+            self.parts(run, &objects).any(blocks)
         })
     }
 
@@ -296,7 +315,9 @@ impl Geometry {
 
     fn spheres(&self) -> &Spheres {
         self.spheres.get_or_init(|| {
-            let each = |&Run { pool, first, end }: &Run| (first..end).map(move |i| Run { pool, first: i, end: i + 1 });
+            let owner = |pool: u32, i: u32| self.pools[pool as usize].objects()[i as usize];
+            let one = |pool: u32, i: u32| Run { pool, first: i, end: i + 1, owner: owner(pool, i) };
+            let each = |&Run { pool, first, end, .. }: &Run| (first..end).map(move |i| one(pool, i));
             let shapes: Vec<Run> = self.runs.iter().flat_map(each).collect();
             let sphere = |run: &Run| self.pools[run.pool as usize].bounding_sphere(run.first);
             let tree = SphereTree::build(shapes.iter().filter_map(sphere));

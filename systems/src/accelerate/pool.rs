@@ -80,8 +80,10 @@ impl<P: Primitive> Pool<P> {
 
     #[inline]
     fn search(&self, run: Range<usize>, best: &mut Best, mut hit: impl FnMut(&P::Packed, f64) -> Option<Hit>) {
-        for index in run {
-            if let Some(hit) = hit(&self.shapes[index], best.limit) {
+        let first = run.start;
+        for (n, shape) in self.shapes[run].iter().enumerate() {
+            if let Some(hit) = hit(shape, best.limit) {
+                let index = first + n;
                 let object = self.objects[index];
                 if best.nearest.is_none_or(|nearest| hit.t < nearest.hit.t || object < nearest.object) {
                     best.limit = hit.t;

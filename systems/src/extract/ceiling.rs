@@ -112,7 +112,7 @@ mod tests {
         let of_object = vec![MaterialOfObject::Whole(0)];
         let materials = Materials { all: vec![material], of_object, ..Materials::default() };
         let lamp = PointLight { intensity: Rgb::splat(0.8), ..PointLight::default() };
-        let lights = Lights { ambient: Rgb::splat(0.2), lamps: vec![Arc::new(lamp)], labels: vec![(None, "")] };
+        let lights = Lights { ambient: Rgb::splat(0.2), lamps: vec![Arc::new(lamp)], ..Lights::default() };
         let settings = Settings { depth, background: Rgb::splat(background), ..Settings::default() };
         Ceiling::of(&settings, &materials, &lights, Rgb::splat(background))
     }

@@ -23,6 +23,29 @@ impl Clone for Interior {
     }
 }
 
+/// The interiors of the rays of a tree, by number; that of the camera is number 0.
+pub(super) struct Interiors<'a> {
+    camera: &'a Interior,
+    others: SmallVec<[Interior; 4]>,
+}
+
+impl<'a> Interiors<'a> {
+    pub(super) fn new(camera: &'a Interior) -> Self {
+        Self { camera, others: SmallVec::new() }
+    }
+
+    #[inline]
+    pub(super) fn get(&self, number: u32) -> &Interior {
+        if number == 0 { self.camera } else { &self.others[number as usize - 1] }
+    }
+
+    /// The number of one more.
+    pub(super) fn keep(&mut self, interior: Interior) -> u32 {
+        self.others.push(interior);
+        self.others.len() as u32
+    }
+}
+
 /// What lies on the two sides of a surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sides<'a> {

@@ -8,7 +8,7 @@ use super::{
     optics,
 };
 use crate::{
-    accelerate::{Geometry, Nearest},
+    accelerate::Nearest,
     snapshot::{Effect, Lights, Material, MaterialOfObject, Snapshot},
 };
 use glam::{DVec2, DVec3};
@@ -34,27 +34,20 @@ pub(super) struct Point<'a> {
     pub material: &'a Material,
     /// Whether the ray comes from outside.
     pub entering: bool,
-    /// The clear bodies that the ray comes through.
-    pub interior: &'a Interior,
     pub key: Key,
 }
 
 impl<'a> Point<'a> {
-    pub(super) fn new(
-        snapshot: &'a Snapshot,
-        methods: &'a Methods,
-        ray: &Ray,
-        met: &Nearest,
-        interior: &'a Interior,
-        key: Key,
-    ) -> Self {
+    pub(super) fn new(snapshot: &'a Snapshot, methods: &'a Methods, ray: &Ray, met: &Nearest, key: Key) -> Self {
         let Snapshot { geometry, materials, .. } = snapshot;
         let (mut surface, material) = match &materials.of_object[met.object as usize] {
             MaterialOfObject::Whole(number) => {
                 let material = &materials.all[*number as usize];
-                let textured = material.texture.is_some();
-                let surface = if textured { Geometry::surface } else { Geometry::surface_without_uv };
-                (surface(geometry, met, ray, methods), material)
+                let surface = match material.texture {
+                    Some(_) => geometry.surface(met, ray, methods),
+                    None => geometry.surface_without_uv(met, ray, methods),
+                };
+                (surface, material)
             }
             MaterialOfObject::Slots(_) => {
                 let surface = geometry.surface(met, ray, methods);
@@ -67,13 +60,15 @@ impl<'a> Point<'a> {
             surface.shading_normal = -surface.shading_normal;
         }
         let (direction, travelled) = (ray.direction, met.hit.t);
-        Self { snapshot, methods, direction, travelled, surface, material, entering, interior, key }
+        Self { snapshot, methods, direction, travelled, surface, material, entering, key }
     }
 
-    /// Sum of the ambient, diffuse and highlight terms; `weight` is what it is multiplied by in the pixel.
+    /// Sum of the ambient, diffuse and highlight terms; `weight` is what it is multiplied by in the pixel, `interior`
+    /// are the clear bodies that the ray came through.
     pub(super) fn local<O: Observer>(
         &self,
         weight: Rgb,
+        interior: &Interior,
         footprint: impl FnOnce() -> Footprint,
         counts: &mut Counts,
         observer: &mut O,
@@ -90,10 +85,10 @@ impl<'a> Point<'a> {
                 Effect::Diffuse(strength) => {
                     let factor = strength * color;
                     let term = |light: &Arriving| light.intensity * light.cosine;
-                    (factor, self.over_lights(weight * factor, counts, observer, term))
+                    (factor, self.over_lights(weight * factor, interior, counts, observer, term))
                 }
                 Effect::Glossy { diffuse, highlight, exponent } => {
-                    let light = self.over_lights(weight, counts, observer, |light| {
+                    let light = self.over_lights(weight, interior, counts, observer, |light| {
                         // Where the mirrored light points away from the viewer there is no highlight, whatever the
                         // exponent.
                         let mirrored = optics::reflect(-light.direction, self.surface.shading_normal);
@@ -126,6 +121,7 @@ impl<'a> Point<'a> {
     fn over_lights<O: Observer>(
         &self,
         weight: Rgb,
+        interior: &Interior,
         counts: &mut Counts,
         observer: &mut O,
         term: impl Fn(&Arriving) -> Rgb,
@@ -136,12 +132,10 @@ impl<'a> Point<'a> {
         for ((lamp, sampling), n) in lamps.iter().zip(sampling).zip(0..) {
             let mut one = |sample| {
                 let light = lamp.illuminate(start, sample);
-                let (visible, arriving) = match &light {
-                    Some(light) => self.arriving(start, light, counts),
-                    None => (None, None),
-                };
+                let arriving = light.as_ref().and_then(|light| self.arriving(start, light, interior, counts));
+                let visible = arriving.as_ref().map(|arriving| arriving.visible);
                 observer.looked(&Look { lamp: n, from: start, light: light.as_ref(), visible });
-                arriving.map(|arriving| term(&arriving))
+                arriving.filter(|arriving| arriving.visible != Rgb::ZERO).map(|arriving| term(&arriving))
             };
             let light = match *sampling {
                 None => one(DVec2::ZERO).unwrap_or(Rgb::ZERO),
@@ -158,28 +152,34 @@ impl<'a> Point<'a> {
         sum
     }
 
-    /// The share of a light that gets through to the point, if it shines on this side, and what arrives, if anything does.
-    fn arriving(&self, start: DVec3, light: &Illumination, counts: &mut Counts) -> (Option<Rgb>, Option<Arriving>) {
+    /// What arrives of a light at the point, if it shines on this side.
+    fn arriving(
+        &self,
+        start: DVec3,
+        light: &Illumination,
+        interior: &Interior,
+        counts: &mut Counts,
+    ) -> Option<Arriving> {
         let length = light.to_light.length();
         let direction = light.to_light * (1.0 / length);
         let cosine = self.surface.shading_normal.dot(direction);
         if cosine <= 0.0 || cosine.is_nan() {
-            return (None, None);
+            return None;
         }
         let visible = if light.shadows && self.snapshot.settings.shadows {
-            self.visibility(Ray { origin: start, direction: light.to_light }, length, light.distance, counts)
+            let ray = Ray { origin: start, direction: light.to_light };
+            self.visibility(ray, length, light.distance, interior, counts)
         } else {
             Rgb::ONE
         };
-        let arriving = || Arriving { direction, cosine, intensity: light.intensity * visible };
-        (Some(visible), (visible != Rgb::ZERO).then(arriving))
+        Some(Arriving { direction, cosine, intensity: light.intensity * visible, visible })
     }
 
     /// Share of a light that gets through to the start of `ray`, whose direction is so long, and which ends at the
     /// light: none if anything opaque is in between; else every transparent surface weakens it, as do the bodies it goes
     /// through. The ray goes straight, even where a view ray would bend.
     #[inline]
-    fn visibility(&self, ray: Ray, length: f64, distance: f64, counts: &mut Counts) -> Rgb {
+    fn visibility(&self, ray: Ray, length: f64, distance: f64, interior: &Interior, counts: &mut Counts) -> Rgb {
         let Snapshot { geometry, materials, .. } = self.snapshot;
         let clear = &materials.clear;
         let mut cost = Cost::default();
@@ -196,19 +196,26 @@ impl<'a> Point<'a> {
         } else if clear.is_empty() {
             Rgb::ONE
         } else {
-            self.through_clear(ray, rest, distance, counts)
+            self.through_clear(ray, rest, distance, interior.clone(), counts)
         }
     }
 
     /// Share of a light that gets through all that is clear on the way, up to `rest` of the `distance` to the light.
-    fn through_clear(&self, mut ray: Ray, mut rest: f64, distance: f64, counts: &mut Counts) -> Rgb {
+    #[inline(never)]
+    fn through_clear(
+        &self,
+        mut ray: Ray,
+        mut rest: f64,
+        distance: f64,
+        mut interior: Interior,
+        counts: &mut Counts,
+    ) -> Rgb {
         let Snapshot { geometry, materials, .. } = self.snapshot;
         let is_clear = |object: u32| materials.clear[object as usize];
         let mut cost = Cost::default();
         let mut visible = Rgb::ONE;
         let end = ray.at(distance);
         let toward = ray.direction;
-        let mut interior = self.interior.clone();
         while visible != Rgb::ZERO {
             let met = geometry.nearest_of(is_clear, &ray, rest, self.methods, &mut cost);
             let met = met.filter(|met| met.hit.t < rest);
@@ -308,6 +315,8 @@ struct Arriving {
     cosine: f64,
     /// What arrives after shadows, linear RGB.
     intensity: Rgb,
+    /// The share that got through.
+    visible: Rgb,
 }
 
 /// Where the way to a light at `distance` ends: before the rounding error of a surface that the light stands on, which

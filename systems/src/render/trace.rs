@@ -5,7 +5,7 @@ use super::{
     antialias::Pixels,
     budget::Cut,
     footprint::Beside,
-    interior::{self, Interior, Sides},
+    interior::{self, Interiors, Sides},
     observe::{Added, Dropped, Forward, Observer, Traced, Way},
     optics,
     shade::{Point, straight_eta},
@@ -43,6 +43,7 @@ pub fn pixel_observed<O: Observer>(
 }
 
 /// A ray yet to be traced.
+#[derive(Clone, Copy)]
 struct Pending<B> {
     ray: Ray,
     beside: B,
@@ -50,8 +51,8 @@ struct Pending<B> {
     weight: Rgb,
     /// How many surfaces lie between it and the camera.
     depth: u32,
-    /// The clear bodies it goes through.
-    interior: Interior,
+    /// The number of the clear bodies it goes through.
+    inside: u32,
     /// In nanometres; none for white light.
     wavelength: Option<f64>,
     key: Key,
@@ -74,18 +75,19 @@ pub(super) fn light_along<B: Beside, O: Observer>(
     let mut sum = Rgb::ZERO;
     let mut first = None;
     let mut cut = Cut::of(snapshot);
-    let interior = snapshot.inside.clone();
+    let mut interiors = Interiors::new(&snapshot.inside);
     let (way, weight) = (Way::Camera, Rgb::ONE);
     observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
     // The top of the stack is kept apart: most rays have one follower at most.
-    let mut top = Some(Pending { ray, beside, weight, depth: 0, interior, wavelength: None, key });
+    let mut top = Some(Pending { ray, beside, weight, depth: 0, inside: 0, wavelength: None, key });
     let mut below: SmallVec<[Pending<B>; 8]> = SmallVec::new();
-    while let Some(Pending { ray, beside, mut weight, depth, interior, wavelength, key }) =
+    while let Some(Pending { ray, beside, mut weight, depth, inside, wavelength, key }) =
         top.take().or_else(|| below.pop())
     {
         let mut cost = Cost::default();
         let met = snapshot.geometry.nearest(&ray, f64::INFINITY, methods, &mut cost);
         counts.add(cost);
+        let interior = interiors.get(inside);
         if !materials.media.is_empty() {
             let travelled = met.map_or(f64::INFINITY, |met| met.hit.t);
             weight *= interior::transmittance(interior.medium(materials), travelled);
@@ -99,22 +101,23 @@ pub(super) fn light_along<B: Beside, O: Observer>(
             observer.added(Added::Background, weight, settings.background);
             continue;
         };
-        let point = Point::new(snapshot, methods, &ray, &met, &interior, key);
+        let point = Point::new(snapshot, methods, &ray, &met, key);
         let sides = materials.medium(met.object).map(|_| interior.sides(met.object, point.entering, materials));
         if sides == Some(None) {
             // The surface lies inside a body that counts before its own: it is not there.
             let ray = Ray { origin: point.surface.departure(ray.direction, met.hit.t), direction: ray.direction };
-            let interior = interior.across(met.object, point.entering);
+            let across = interior.across(met.object, point.entering);
+            let inside = interiors.keep(across);
             let (way, share) = (Way::Onward, Rgb::ONE);
             observer.put_forward(&Forward { way, ray: &ray, share, weight, wavelength });
-            top = Some(Pending { ray, beside, weight, depth, interior, wavelength, key });
+            top = Some(Pending { ray, beside, weight, depth, inside, wavelength, key });
             continue;
         }
         if depth == 0 {
             first = Some(met.object);
         }
         let beside = beside.meet(&point, &met);
-        let local = point.local(weight, || B::footprint(&beside, &point.surface), counts, observer);
+        let local = point.local(weight, interior, || B::footprint(&beside, &point.surface), counts, observer);
         sum += weight * local;
         observer.added(Added::Surface, weight, local);
 
@@ -122,34 +125,43 @@ pub(super) fn light_along<B: Beside, O: Observer>(
             continue;
         }
         let branches = point.branches(sides.flatten(), wavelength);
-        for (n, branch) in branches.into_iter().enumerate().rev() {
+        let mut beyond = None;
+        for (n, branch) in branches.iter().enumerate().rev() {
             let weight = weight * branch.share;
             let origin = point.surface.departure(branch.direction, point.travelled);
             let ray = Ray { origin, direction: branch.direction };
-            let Branch { way, share, wavelength, .. } = branch;
+            let Branch { way, share, wavelength, .. } = *branch;
             let forward = Forward { way, ray: &ray, share, weight, wavelength };
             if depth >= settings.depth {
                 counts.too_deep += 1;
-                let beyond = beyond_depth(settings.background);
-                sum += weight * beyond;
+                let light = beyond_depth(settings.background);
+                sum += weight * light;
                 observer.dropped(&forward, Dropped::TooDeep);
-                observer.added(Added::BeyondDepth, weight, beyond);
+                observer.added(Added::BeyondDepth, weight, light);
             } else if cut.drops(weight, settings.depth - depth - 1) {
                 counts.cut += 1;
                 observer.dropped(&forward, Dropped::Cut);
             } else {
                 observer.put_forward(&forward);
-                let interior = if way == Way::Mirrored {
+                let inside = if way == Way::Mirrored {
                     counts.mirror += 1;
-                    interior.clone()
+                    inside
                 } else {
                     counts.transmitted += 1;
-                    if sides.is_some() { interior.across(met.object, point.entering) } else { interior.clone() }
+                    match beyond {
+                        _ if sides.is_none() => inside,
+                        // The same for all lines of a spectrum.
+                        Some(beyond) => beyond,
+                        None => {
+                            let across = interiors.get(inside).across(met.object, point.entering);
+                            *beyond.insert(interiors.keep(across))
+                        }
+                    }
                 };
                 // Lights count from zero up, branches from the top down.
                 let key = key.child(u32::MAX - n as u32);
-                let beside = B::go_on(&beside, &point, &branch);
-                let next = Pending { ray, beside, weight, depth: depth + 1, interior, wavelength, key };
+                let beside = B::go_on(&beside, &point, branch);
+                let next = Pending { ray, beside, weight, depth: depth + 1, inside, wavelength, key };
                 below.extend(top.replace(next));
             }
         }
