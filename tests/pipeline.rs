@@ -541,6 +541,36 @@ fn bounding_spheres_hold_their_objects() {
     assert_eq!(count, 250);
 }
 
+/// A ball that says its bounds are the whole of space.
+#[derive(Component, Clone, Default, Describe)]
+struct Vast {}
+
+impl Primitive for Vast {
+    type Packed = <Sphere as Primitive>::Packed;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Result<(Extent, Self::Packed), Degenerate> {
+        let (_, packed) = Sphere { radius: 1.0 }.pack(world_from_object)?;
+        Ok((Extent::Bounded(Bounds { min: DVec3::NEG_INFINITY, max: DVec3::INFINITY }), packed))
+    }
+
+    fn hit(packed: &Self::Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
+        Sphere::hit(packed, ray, t_max, cost)
+    }
+
+    fn surface(packed: &Self::Packed, ray: &Ray, hit: Hit) -> Surface {
+        Sphere::surface(packed, ray, hit)
+    }
+}
+
+#[test]
+fn a_shape_whose_bounds_are_not_numbers_is_left_out_and_reported() {
+    let mut renderer = Renderer::new().with_primitive::<Vast>();
+    renderer.add("camera", Camera::at([0.0, 0.0, 5.0]));
+    renderer.add("vast", Vast {});
+    let snapshot = renderer.snapshot().expect("a snapshot");
+    assert_eq!(*snapshot.left_out, [("vast".into(), "it is larger than numbers are".into())]);
+}
+
 #[test]
 fn shapes_without_a_surface_are_left_out_and_reported() {
     let flat = || Transform::new([Step::Scale(DVec3::new(1.0, 0.0, 1.0))]);

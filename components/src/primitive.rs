@@ -18,7 +18,8 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
 
     /// Makes the packed form and the bounds of the shape placed by `world_from_object`.
     ///
-    /// The bounds must hold every point that `hit` can return, rounding included.
+    /// The bounds must hold every point that `hit` can return, rounding included; where they are not finite the shape is
+    /// left out, and told.
     ///
     /// # Errors
     /// A reason why the shape has no surface to hit; it is then left out of the picture and reported.

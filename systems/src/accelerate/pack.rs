@@ -63,7 +63,7 @@ pub fn pack<P: Primitive>(
         }
         let placed = scene.of_shape(&placed);
         let result = if is_invertible(&placed) {
-            shape.pack(&placed)
+            shape.pack(&placed).and_then(finite)
         } else {
             Err(Degenerate("its placement is singular or not finite".into()))
         };
@@ -73,6 +73,16 @@ pub fn pack<P: Primitive>(
             _ => entity.remove::<BoundingSphere>(),
         };
         entity.insert(Packed::<P>(result));
+    }
+}
+
+/// Refuses a shape whose bounds are not numbers.
+fn finite<F>((extent, form): (Extent, F)) -> Result<(Extent, F), Degenerate> {
+    match extent {
+        Extent::Bounded(bounds) if !(bounds.min.is_finite() && bounds.max.is_finite()) => {
+            Err(Degenerate("it is larger than numbers are".into()))
+        }
+        _ => Ok((extent, form)),
     }
 }
 

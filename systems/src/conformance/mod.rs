@@ -85,6 +85,7 @@ impl Report {
     ///
     /// # Panics
     /// If something failed, with all of it.
+    #[track_caller]
     pub fn assert(&self) {
         assert!(self.failures.is_empty(), "the shape breaks its contract:\n{self}");
     }
