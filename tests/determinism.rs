@@ -119,7 +119,7 @@ fn the_trees_change_nothing() {
 
 #[test]
 fn a_hundred_edits_undone_leave_every_scene_as_it_was() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for scene in gallery() {
         let (mut renderer, entities) = scene.build(0);
         let placed: Vec<Entity> =

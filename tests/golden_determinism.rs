@@ -5,7 +5,6 @@
 
 mod support {
     pub(crate) mod cases;
-    #[expect(dead_code, reason = "shuffling takes whole numbers only")]
     pub(crate) mod random;
     pub(crate) mod shuffle;
 }

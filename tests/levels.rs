@@ -94,7 +94,7 @@ fn rays(random: &mut Random, mesh: &TriangleMesh, count: usize) -> Vec<Ray> {
 
 #[test]
 fn every_level_hits_what_the_exhaustive_test_hits_to_the_last_bit() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let placements = [DAffine3::IDENTITY, DAffine3::from_scale(DVec3::new(-3.0, 0.5, 1.0))];
     for (n, mesh) in [lattice(&mut random, 9), lattice(&mut random, 300), soup(&mut random, 1), soup(&mut random, 500)]
         .into_iter()

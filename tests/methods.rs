@@ -86,7 +86,7 @@ fn no_method_is_another_in_disguise() {
 /// The costs that tell the trees apart: a chaos of large triangles is the worst case of the sphere tree.
 #[test]
 fn the_sphere_tree_is_a_list_where_triangles_are_large() {
-    let mut random = support::random::Random(5);
+    let mut random = support::random::Random::new(5);
     let mut soup = |size: f64| {
         let mut point =
             |about: DVec3, reach: f64| about + (DVec3::new(random.unit(), random.unit(), random.unit()) - 0.5) * reach;

@@ -51,7 +51,7 @@ fn placement(random: &mut Random) -> Transform {
 
 /// A scene of every shape, some things twice in the very same place, and points of interest: corners, edges, centres.
 fn jumble(seed: u64) -> (Arc<Snapshot>, Vec<DVec3>) {
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     let mut renderer = Renderer::new();
     renderer.world.spawn((Name::new("camera"), Camera::default()));
     let models = [Arc::new(bumpy(6, 4, false)), Arc::new(bumpy(11, 7, true))];
@@ -147,7 +147,7 @@ fn the_nearest_hit_is_that_of_brute_force_bit_for_bit() {
     for seed in 0..24 {
         let (snapshot, points) = jumble(seed);
         let geometry = &snapshot.geometry;
-        let mut random = Random(seed + 1000);
+        let mut random = Random::new(seed + 1000);
         let mut last = None;
         for _ in 0..1500 {
             let ray = ray(&mut random, &points, last.as_ref());
@@ -244,7 +244,7 @@ fn no_ray_leaks_out_of_a_closed_mesh() {
         Transform::new([Step::Scale(DVec3::new(-1.0, 0.3, 2.0)), Step::RotateZ(70.0), Step::Translate(DVec3::ONE)]),
         Transform::at(DVec3::new(148_376.0, 1234.0, -223_423.0)),
     ];
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     for placement in placements {
         let matrix = placement.matrix();
         let mut renderer = Renderer::new();
@@ -266,7 +266,7 @@ fn no_ray_leaks_out_of_a_closed_mesh() {
 #[test]
 fn the_usual_triangle_test_leaks_on_the_same_rays() {
     let mesh = bumpy(8, 8, false);
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let leaks = |ray: &Ray| !(0..mesh.len()).any(|i| moller_trumbore(ray, mesh.corners(i)));
     let count = (0..20_000).filter(|_| leaks(&aimed(&mut random, &mesh))).count();
     assert!(count > 100, "{count} leaks: the rays are not aimed well enough to show anything");
@@ -317,7 +317,7 @@ impl Exact {
 /// Oracle: integers. Where the shear is a power of two every operation is exact, and so must be the answer.
 #[test]
 fn on_a_lattice_triangles_are_hit_exactly_edges_and_vertices_included() {
-    let mut random = Random(2);
+    let mut random = Random::new(2);
     let (mut hits, mut on_edges) = (0, 0);
     for i in 0..60_000 {
         let reach = if i % 2 == 0 { 3 } else { 1000 };
@@ -347,7 +347,7 @@ fn on_a_lattice_triangles_are_hit_exactly_edges_and_vertices_included() {
 /// Oracle: integers. No edge of numbers below 2¹⁰ is so near a ray that rounding could turn its sign.
 #[test]
 fn whatever_the_direction_only_an_exact_zero_may_be_decided_either_way() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let (mut decided, mut hits) = (0, 0);
     for _ in 0..60_000 {
         let vertices = [0; 3].map(|_| lattice(&mut random, 1000));
@@ -431,7 +431,7 @@ fn alone(bundle: impl Bundle) -> Arc<snell::systems::accelerate::Geometry> {
 /// Oracle: exact arithmetic on the bits. The true root lies within the bar of the distance found.
 #[test]
 fn the_distance_of_a_sphere_is_true_to_a_few_roundings_however_far_it_is() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     for i in 0..4000 {
         let radius = 0.5 + random.unit();
         let away = 1.5 * math::pow(10.0, f64::from(i % 13));
@@ -453,7 +453,7 @@ fn the_distance_of_a_sphere_is_true_to_a_few_roundings_however_far_it_is() {
 /// Oracle: exact arithmetic on the bits. `t·d − (p − o)` is the error times `d`.
 #[test]
 fn the_distance_of_a_plane_is_true_to_a_few_roundings_even_at_grazing_angles() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     for i in 0..4000 {
         let height = vector(&mut random, 100.0).y;
         let origin = vector(&mut random, 100.0);

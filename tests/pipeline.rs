@@ -451,7 +451,7 @@ fn a_hundred_edits_and_their_undoing_leave_no_trace() {
     let mut renderer = studio();
     let before = hash(&mut renderer);
     let names = ["ball", "crate", "model", "lamp"];
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let mut undo: Vec<(Entity, Transform)> = vec![];
     for _ in 0..100 {
         let entity = find(&mut renderer, names[random.below(names.len())]);
@@ -483,7 +483,7 @@ fn settings_are_taken_over() {
 
 #[test]
 fn bounding_spheres_hold_their_objects() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let mut renderer = Renderer::new();
     let world = &mut renderer.world;
     world.spawn(Camera::default());

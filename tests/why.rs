@@ -2,7 +2,6 @@
 
 mod support {
     pub(crate) mod desk;
-    #[expect(dead_code, reason = "pixels are whole numbers")]
     pub(crate) mod random;
 }
 
@@ -49,7 +48,7 @@ fn check_sums(tree: &RayTree) {
 
 #[test]
 fn the_contributions_of_random_pixels_of_the_gallery_add_up_to_the_film() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     let scenes = gallery();
     for (number, path) in scenes.iter().enumerate() {
         let mut renderer = Renderer::new();

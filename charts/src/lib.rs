@@ -4,6 +4,7 @@
 //! [`page`] puts studies together. [`deadline`] renders as well as a time allows.
 
 pub mod advice;
+pub mod canvas;
 pub mod chart;
 pub mod clock;
 pub mod deadline;

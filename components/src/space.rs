@@ -123,6 +123,27 @@ impl BoundingSphere {
         Self::about(center, [bounds.min, bounds.max])
     }
 
+    /// The least sphere around a triangle: about the middle of its longest side where the angle there is not acute, else
+    /// through all three corners; widened to hold despite rounding.
+    #[must_use]
+    pub fn of_triangle([a, b, c]: [DVec3; 3]) -> Self {
+        let (ab, ac) = (b - a, c - a);
+        let (x, y, z) = ((c - b).length_squared(), ac.length_squared(), ab.length_squared());
+        let center = if x >= y + z {
+            b + (c - b) * 0.5
+        } else if y >= x + z {
+            a + ac * 0.5
+        } else if z >= x + y {
+            a + ab * 0.5
+        } else {
+            let normal = ab.cross(ac);
+            a + (normal.cross(ab) * y + ac.cross(normal) * z) / (2.0 * normal.length_squared())
+        };
+        // Of needles and of numbers beyond squaring, the centre may be none.
+        let center = if center.is_finite() { center } else { Bounds::of_points([a, b, c]).center() };
+        Self::about(center, [a, b, c])
+    }
+
     /// The sphere about `center` that reaches the farthest of some points, widened to hold despite rounding.
     #[must_use]
     pub fn about(center: DVec3, points: impl IntoIterator<Item = DVec3>) -> Self {

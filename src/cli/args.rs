@@ -182,7 +182,7 @@ pub(super) struct StabilityArguments {
     #[arg(long)]
     pub(super) deep: bool,
 
-    /// Folder for stability.md, stability.json and stability.svg
+    /// Folder for stability.md, .json, .svg and .png
     #[arg(short, long, value_name = "DIR")]
     pub(super) output: Option<PathBuf>,
 

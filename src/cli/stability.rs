@@ -1,6 +1,6 @@
 //! `snell stability`.
 
-use super::{Console, Failure, args::StabilityArguments};
+use super::{Console, Failure, args::StabilityArguments, machine};
 use snell_stability::{Outcome, Size, cases, picture, report};
 use snell_systems::image;
 use std::fs;
@@ -21,16 +21,21 @@ pub(super) fn stability(args: &StabilityArguments, console: &mut Console<'_>) ->
         console.note(format!("{} {}", case.id, case.name));
         outcome.rows.extend(case.run(size));
     }
-    let table = report::markdown(&outcome);
+    let form = if args.deep { "deep" } else { "fast" };
+    let about = format!("Snell {}, {form} form, {}", env!("CARGO_PKG_VERSION"), machine::about());
+    let table = format!("{about}.\n\n{}", report::markdown(&outcome));
     console.say(&table);
     if let Some(folder) = &args.output {
         let work = |why: String| Failure::Work(why);
         fs::create_dir_all(folder).map_err(|why| work(format!("{}: {why}", folder.display())))?;
         let json = report::json(&outcome).map_err(|why| work(why.to_string()))?;
-        for (name, text) in
-            [("stability.md", table), ("stability.json", json), ("stability.svg", picture::svg(&outcome))]
+        let svg = picture::svg(&outcome).map_err(|why| work(why.to_string()))?;
+        let png = picture::png(&outcome).map_err(|why| work(why.to_string()))?;
+        for (ending, bytes) in
+            [("md", table.into_bytes()), ("json", json.into_bytes()), ("svg", svg.into_bytes()), ("png", png)]
         {
-            image::write_atomically(&folder.join(name), text.as_bytes()).map_err(|why| work(why.to_string()))?;
+            let file = folder.join("stability").with_extension(ending);
+            image::write_atomically(&file, &bytes).map_err(|why| work(why.to_string()))?;
         }
     }
     match outcome.broken().count() {

@@ -31,8 +31,8 @@ pub(crate) fn minus(a: Whole, b: Whole) -> Whole {
 pub(crate) struct Crossing {
     /// Twice the signed areas that the ray cuts off at the edges.
     pub(crate) edges: [i128; 3],
-    /// The distance as a fraction.
-    pub(crate) distance: (i128, i128),
+    /// The distance.
+    pub(crate) distance: Fraction,
 }
 
 impl Crossing {
@@ -41,32 +41,53 @@ impl Crossing {
         let d = whole(ray.direction);
         let edges = [dot(d, cross(b, c)), dot(d, cross(c, a)), dot(d, cross(a, b))];
         let normal = cross(minus(b, a), minus(c, a));
-        Self { edges, distance: (dot(a, normal), dot(d, normal)) }
+        Self { edges, distance: (dot(a, normal) * dot(d, normal).signum(), dot(d, normal).abs()) }
     }
 
     /// Whether the half-line meets the closed triangle other than edge-on or at its own start.
     pub(crate) fn hits(&self) -> bool {
         let (over, under) = self.distance;
         let inside = self.edges.iter().all(|e| *e >= 0) || self.edges.iter().all(|e| *e <= 0);
-        inside && under != 0 && over.signum() * under.signum() > 0
+        inside && under != 0 && over > 0
     }
 
     /// Whether this distance is less than another; both must be hits.
     pub(crate) fn nearer(&self, other: &Self) -> bool {
         let ((a, b), (c, d)) = (self.distance, other.distance);
-        a.abs() * d.abs() < c.abs() * b.abs()
+        a * d < c * b
     }
+}
+
+/// A distance: numerator and positive denominator.
+type Fraction = (i128, i128);
+
+/// How far a value is from a fraction that is not zero, as a share of that.
+pub(crate) fn relative_error(t: f64, (over, under): Fraction) -> f64 {
+    let (over, under) = (Double::of_whole(over), Double::of_whole(under));
+    ((Double::from(t) * under - over) / over).to_f64().abs()
+}
+
+/// Where a half-line enters and leaves a closed box; it enters at zero if it starts within.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Span {
+    pub(crate) enter: Fraction,
+    /// None for a ray without direction.
+    pub(crate) leave: Option<Fraction>,
 }
 
 /// Whether a half-line meets a closed box, all of whole coordinates: by fractions.
 pub(crate) fn meets_box(ray: &Ray, min: DVec3, max: DVec3) -> bool {
+    box_span(ray, min, max).is_some()
+}
+
+/// Where a half-line meets a closed box, all of whole coordinates: by fractions.
+pub(crate) fn box_span(ray: &Ray, min: DVec3, max: DVec3) -> Option<Span> {
     let (o, d, min, max) = (whole(ray.origin), whole(ray.direction), whole(min), whole(max));
-    // From `enter` to `leave`, numerator and positive denominator.
-    let (mut enter, mut leave): ((i128, i128), Option<(i128, i128)>) = ((0, 1), None);
+    let (mut enter, mut leave): (Fraction, Option<Fraction>) = ((0, 1), None);
     for axis in 0..3 {
         if d[axis] == 0 {
             if o[axis] < min[axis] || o[axis] > max[axis] {
-                return false;
+                return None;
             }
             continue;
         }
@@ -81,7 +102,7 @@ pub(crate) fn meets_box(ray: &Ray, min: DVec3, max: DVec3) -> bool {
             leave = Some(far);
         }
     }
-    leave.is_none_or(|leave| enter.0 * leave.1 <= leave.0 * enter.1)
+    leave.is_none_or(|leave| enter.0 * leave.1 <= leave.0 * enter.1).then_some(Span { enter, leave })
 }
 
 /// A number as the sum of two that do not overlap (Dekker 1971, Knuth).
@@ -117,6 +138,12 @@ fn two_product(a: f64, b: f64) -> (f64, f64) {
 }
 
 impl Double {
+    /// A whole number below 2^106.
+    fn of_whole(whole: i128) -> Self {
+        let high = whole as f64;
+        Self::normal(high, (whole - high as i128) as f64)
+    }
+
     pub(crate) fn to_f64(self) -> f64 {
         self.high + self.low
     }
@@ -185,12 +212,35 @@ impl core::ops::Div for Double {
     }
 }
 
+type Vector = [Double; 3];
+
+fn vector(v: DVec3) -> Vector {
+    v.to_array().map(Double::from)
+}
+
+fn dot_double(a: Vector, b: Vector) -> Double {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// How far the point at `t` is from the surface of a sphere.
+pub(crate) fn sphere_residual(ray: &Ray, t: f64, center: DVec3, radius: f64) -> f64 {
+    let (o, d, c) = (vector(ray.origin), vector(ray.direction), vector(center));
+    let off: Vector = core::array::from_fn(|i| o[i] + d[i] * Double::from(t) - c[i]);
+    (dot_double(off, off).sqrt() - Double::from(radius)).to_f64().abs()
+}
+
+/// The distance at which a ray crosses the plane through a point, by its normal, which may have any length.
+pub(crate) fn plane_distance(ray: &Ray, point: DVec3, normal: DVec3) -> f64 {
+    let (o, d, p, n) = (vector(ray.origin), vector(ray.direction), vector(point), vector(normal));
+    let off: Vector = core::array::from_fn(|i| p[i] - o[i]);
+    (dot_double(n, off) / dot_double(n, d)).to_f64()
+}
+
 /// The roots of a ray and a sphere, nearer first, none if the line misses it.
 pub(crate) fn sphere_roots(ray: &Ray, center: DVec3, radius: f64) -> Option<[f64; 2]> {
-    let part = |a: DVec3| a.to_array().map(Double::from);
-    let (o, d, c) = (part(ray.origin), part(ray.direction), part(center));
-    let f: [Double; 3] = core::array::from_fn(|i| o[i] - c[i]);
-    let dot = |a: [Double; 3], b: [Double; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let (o, d, c) = (vector(ray.origin), vector(ray.direction), vector(center));
+    let f: Vector = core::array::from_fn(|i| o[i] - c[i]);
+    let dot = dot_double;
     let (a, b) = (dot(d, d), dot(f, d));
     // By the foot, so that thirty digits stay thirty.
     let foot: [Double; 3] = core::array::from_fn(|i| f[i] - d[i] * (b / a));

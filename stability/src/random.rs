@@ -1,39 +1,37 @@
-//! Numbers that are the same in every run (splitmix64).
+//! Numbers and points that are the same in every run.
 
 use glam::DVec3;
+use snell_components::random::SplitMix64;
 
 /// A reproducible stream of numbers.
 #[derive(Clone)]
-pub(crate) struct Random(u64);
+pub(crate) struct Random(SplitMix64);
 
 impl Random {
     pub(crate) fn new(seed: u64) -> Self {
-        Self(seed)
+        Self(SplitMix64::new(seed))
     }
 
     /// The stream of the n-th chunk of work under a seed.
     pub(crate) fn of_chunk(seed: u64, n: u64) -> Self {
-        let mut mixed = Self(seed ^ n.wrapping_mul(0xd134_2543_de82_ef95));
+        let mut mixed = Self::new(seed ^ n.wrapping_mul(0xd134_2543_de82_ef95));
         mixed.bits();
         mixed
     }
 
     /// The next 64 bits.
     pub(crate) fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        self.0.bits()
     }
 
     /// From 0 to `n − 1`.
     pub(crate) fn below(&mut self, n: usize) -> usize {
-        (self.bits() % n as u64) as usize
+        self.0.below(n)
     }
 
     /// From 0 to 1, without 1.
     pub(crate) fn unit(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+        self.0.unit()
     }
 
     /// From −1 to 1.

@@ -181,6 +181,9 @@ impl Tally {
 /// Tries in a chunk: the unit of parallel work, each with a stream of its own.
 const CHUNK: u64 = 4096;
 
+/// Of so many tries at least one counts.
+const MOST_SKIPPED: u64 = 64;
+
 impl Bench {
     /// Tries of a cell in full.
     pub(crate) fn full(&self) -> u64 {
@@ -190,17 +193,24 @@ impl Bench {
         }
     }
 
-    /// Tries of a cell whose every try is dear, or of a method that is only shown to fail.
-    pub(crate) fn part(&self, of: u64) -> u64 {
-        self.full() / of
+    /// Tries of a cell for a method that is there to be seen failing: enough to see how often.
+    pub(crate) fn others(&self) -> u64 {
+        match self.size {
+            Size::Fast => 100_000,
+            Size::Deep => 1_000_000,
+        }
     }
 
-    /// Tries something many times, in parallel, the same every time.
+    /// Tries something many times, in parallel, the same every time. What does not count is made up for by further tries.
     pub(crate) fn tally(&self, seed: u64, tries: u64, one: impl Fn(&mut Random) -> Trial + Sync) -> Tally {
         let chunk = |n: u64| {
             let mut random = Random::of_chunk(seed, n);
             let mut tally = Tally::default();
-            for _ in 0..CHUNK.min(tries - n * CHUNK) {
+            let wanted = CHUNK.min(tries - n * CHUNK);
+            for _ in 0..wanted * MOST_SKIPPED {
+                if tally.tries == wanted {
+                    break;
+                }
                 tally.add(one(&mut random));
             }
             tally

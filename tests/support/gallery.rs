@@ -161,7 +161,7 @@ fn glass() -> Scene {
 /// A sphere of unit radius with hills, its vertices shared; the flag gives every other triangle normals, texture
 /// coordinates and a material slot.
 pub(crate) fn bumpy(columns: u32, rows: u32, attributes: bool) -> TriangleMesh {
-    let mut random = Random(u64::from(columns));
+    let mut random = Random::new(u64::from(columns));
     let mut positions = vec![[0.0, 1.2, 0.0], [0.0, -1.2, 0.0]];
     for row in 1..rows {
         for column in 0..columns {
@@ -268,7 +268,7 @@ fn crowd() -> Scene {
         PointLight { position: DVec3::new(-9.0, 12.0, 9.0), intensity: Rgb::splat(0.9), ..PointLight::default() },
     );
     scene.put("ambient", AmbientLight { intensity: Rgb::splat(0.2) });
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for (name, x) in [("black", 0.1), ("grey", 0.5), ("white", 0.9)] {
         scene.put(name, (Color(Rgb::new(x, 0.5 * x, 1.0 - x)), Diffuse(Rgb::splat(0.8)), Ambient(Rgb::splat(0.2))));
     }

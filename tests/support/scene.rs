@@ -65,7 +65,7 @@ impl Scene {
     /// A world with the scene in it; `order` 0 makes the things in the order in which they were put, any other number
     /// shuffles both the making of the entities and the giving of components.
     pub(crate) fn build(&self, order: u64) -> (Renderer, Entities) {
-        let mut random = Random(order);
+        let mut random = Random::new(order);
         let mut shuffled = || {
             let mut indices: Vec<usize> = (0..self.things.len()).collect();
             if order != 0 {

@@ -13,7 +13,7 @@ pub(crate) fn shuffled(scene: &str, seed: u64) -> Option<String> {
     }
     // After a last comma.
     entries.pop_if(|entry| entry.trim().is_empty());
-    let mut random = Random(seed);
+    let mut random = Random::new(seed);
     for i in (1..entries.len()).rev() {
         entries.swap(i, random.below(i + 1));
     }

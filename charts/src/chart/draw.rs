@@ -1,16 +1,7 @@
 //! The drawing of a chart.
 
 use super::{Chart, Point, axis::Scale, front};
-use core::error::Error;
-use plotters::{
-    coord::Shift,
-    prelude::*,
-    style::{
-        FontStyle, FontTransform, register_font,
-        text_anchor::{HPos, Pos, VPos},
-    },
-};
-use std::sync::Once;
+use crate::canvas::{self, Canvas, DrawingBackend, Figure, HPos, RGBColor, Refused, VPos, WHITE, width};
 
 /// Width and height of a drawing in pixels.
 pub const SIZE: (u32, u32) = (960, 600);
@@ -32,19 +23,12 @@ const COLORS: [RGBColor; 7] = [
     RGBColor(60, 60, 60),
 ];
 
-/// A drawing cannot be made: the font is broken, or a library refuses.
-type Refused = Box<dyn Error + Send + Sync>;
-
 /// The chart as SVG.
 ///
 /// # Errors
 /// What the drawing library refuses.
 pub fn svg(chart: &Chart) -> Result<String, Refused> {
-    let mut text = String::new();
-    let area = SVGBackend::with_string(&mut text, SIZE).into_drawing_area();
-    Drawing { area: &area, scale: 1 }.chart(chart)?;
-    drop(area);
-    Ok(text)
+    canvas::svg(chart)
 }
 
 /// The chart as a PNG file, 8 bits.
@@ -52,24 +36,20 @@ pub fn svg(chart: &Chart) -> Result<String, Refused> {
 /// # Errors
 /// What the drawing library refuses.
 pub fn png(chart: &Chart) -> Result<Vec<u8>, Refused> {
-    // Drawn twice as large and made smaller, so that lines and letters are smooth.
-    let (width, height) = (SIZE.0 as usize, SIZE.1 as usize);
-    let mut large = vec![255; width * height * 4 * 3];
-    let area = BitMapBackend::with_buffer(&mut large, (2 * SIZE.0, 2 * SIZE.1)).into_drawing_area();
-    Drawing { area: &area, scale: 2 }.chart(chart)?;
-    drop(area);
-    let mean = |i: usize| {
-        let (x, y, channel) = (i / 3 % width, i / 3 / width, i % 3);
-        let at = |dx: usize, dy: usize| u32::from(large[((2 * y + dy) * 2 * width + 2 * x + dx) * 3 + channel]);
-        ((at(0, 0) + at(1, 0) + at(0, 1) + at(1, 1) + 2) / 4) as u8
-    };
-    let pixels: Vec<u8> = (0..width * height * 3).map(mean).collect();
-    let mut file = vec![];
-    let mut encoder = png::Encoder::new(&mut file, SIZE.0, SIZE.1);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.write_header()?.write_image_data(&pixels)?;
-    Ok(file)
+    canvas::png(chart)
+}
+
+impl Figure for Chart {
+    fn size(&self) -> (u32, u32) {
+        SIZE
+    }
+
+    fn draw<B: DrawingBackend>(&self, canvas: &Canvas<'_, B>) -> Result<(), Refused>
+    where
+        B::ErrorType: 'static,
+    {
+        Drawing { canvas }.chart(self)
+    }
 }
 
 /// A rectangle: left, top, right, bottom.
@@ -106,9 +86,7 @@ fn front_of(chart: &Chart, places: &[Vec<(i32, i32)>]) -> Front {
 }
 
 struct Drawing<'a, B: DrawingBackend> {
-    area: &'a DrawingArea<B, Shift>,
-    /// Pixels of the drawing to one of [`SIZE`].
-    scale: i32,
+    canvas: &'a Canvas<'a, B>,
 }
 
 impl<B: DrawingBackend> Drawing<'_, B>
@@ -116,8 +94,6 @@ where
     B::ErrorType: 'static,
 {
     fn chart(&self, chart: &Chart) -> Result<(), Refused> {
-        fonts();
-        self.area.fill(&WHITE)?;
         let points = || chart.series.iter().flat_map(|series| &series.points);
         let ends = || chart.guides.iter().flat_map(|guide| guide.ends);
         let spreads = || points().filter_map(|point| point.spread).flat_map(|(low, high)| [low, high]);
@@ -141,27 +117,25 @@ where
             .map(|series| series.points.iter().map(|point| at(point.x, point.y)).collect())
             .collect();
         let Front { places: on_front, stairs } = front_of(chart, &places);
-        self.line(&stairs, GREY, 2)?;
+        self.canvas.line(&stairs, GREY, 2)?;
         for ((series, places), n) in chart.series.iter().zip(&places).zip(0..) {
             let color = COLORS[n % COLORS.len()];
             if series.joined {
-                places.windows(2).try_for_each(|pair| self.line(pair, color, 2))?;
+                places.windows(2).try_for_each(|pair| self.canvas.line(pair, color, 2))?;
             }
             for (point, &place) in series.points.iter().zip(places) {
                 if let Some((low, high)) = point.spread {
                     let ((low, y), (high, _)) = (at(low, point.y), at(high, point.y));
-                    self.line(&[(low, y), (high, y)], color, 1)?;
-                    self.line(&[(low, y - 3), (low, y + 3)], color, 1)?;
-                    self.line(&[(high, y - 3), (high, y + 3)], color, 1)?;
+                    self.canvas.line(&[(low, y), (high, y)], color, 1)?;
+                    self.canvas.line(&[(low, y - 3), (low, y + 3)], color, 1)?;
+                    self.canvas.line(&[(high, y - 3), (high, y + 3)], color, 1)?;
                 }
                 let filled = !chart.smaller_is_better || on_front.contains(&place);
                 self.marker(n, place, if point.marked { 8 } else { 5 }, color, filled)?;
             }
         }
         self.labels(chart, &places, &on_front, &stairs)?;
-        self.legend(chart)?;
-        self.area.present()?;
-        Ok(())
+        self.legend(chart)
     }
 
     fn axes(&self, chart: &Chart, x: &Scale, y: &Scale) -> Result<(), Refused> {
@@ -171,26 +145,23 @@ where
         let (x_ticks, x_lines) = x.ticks();
         let (y_ticks, y_lines) = y.ticks();
         for value in x_lines {
-            self.line(&[(across(value), top), (across(value), bottom)], RGBColor(243, 243, 243), 1)?;
+            self.canvas.line(&[(across(value), top), (across(value), bottom)], RGBColor(243, 243, 243), 1)?;
         }
         for value in y_lines {
-            self.line(&[(left, up(value)), (right, up(value))], RGBColor(243, 243, 243), 1)?;
+            self.canvas.line(&[(left, up(value)), (right, up(value))], RGBColor(243, 243, 243), 1)?;
         }
         for (value, label) in x_ticks {
-            self.line(&[(across(value), top), (across(value), bottom + 5)], PALE, 1)?;
-            self.text(&label, (across(value), bottom + 9), 15, INK, HPos::Center, VPos::Top)?;
+            self.canvas.line(&[(across(value), top), (across(value), bottom + 5)], PALE, 1)?;
+            self.canvas.text(&label, (across(value), bottom + 9), 15, INK, HPos::Center, VPos::Top)?;
         }
         for (value, label) in y_ticks {
-            self.line(&[(left - 5, up(value)), (right, up(value))], PALE, 1)?;
-            self.text(&label, (left - 9, up(value)), 15, INK, HPos::Right, VPos::Center)?;
+            self.canvas.line(&[(left - 5, up(value)), (right, up(value))], PALE, 1)?;
+            self.canvas.text(&label, (left - 9, up(value)), 15, INK, HPos::Right, VPos::Center)?;
         }
-        self.line(&[(left, top), (left, bottom), (right, bottom)], INK, 1)?;
-        self.text(&chart.title, (left, 18), 21, INK, HPos::Left, VPos::Top)?;
-        self.text(&chart.x.label, ((left + right) / 2, bottom + 40), 16, INK, HPos::Center, VPos::Top)?;
-        let style = self.style(16, INK).transform(FontTransform::Rotate270);
-        let style = style.pos(Pos::new(HPos::Center, VPos::Center));
-        self.area.draw(&Text::new(chart.y.label.clone(), self.scaled((24, (top + bottom) / 2)), style))?;
-        Ok(())
+        self.canvas.line(&[(left, top), (left, bottom), (right, bottom)], INK, 1)?;
+        self.canvas.text(&chart.title, (left, 18), 21, INK, HPos::Left, VPos::Top)?;
+        self.canvas.text(&chart.x.label, ((left + right) / 2, bottom + 40), 16, INK, HPos::Center, VPos::Top)?;
+        self.canvas.text_upward(&chart.y.label, (24, (top + bottom) / 2), 16, INK)
     }
 
     /// Names points where there is room.
@@ -231,7 +202,7 @@ where
                     inside && !taken.iter().any(|other| overlap(rect, other))
                 });
             if let Some(rect) = found {
-                self.text(&point.label, (rect[0], rect[1] + height / 2), 13, INK, HPos::Left, VPos::Center)?;
+                self.canvas.text(&point.label, (rect[0], rect[1] + height / 2), 13, INK, HPos::Left, VPos::Center)?;
                 taken.push(rect);
             }
         }
@@ -244,7 +215,7 @@ where
         for (series, n) in chart.series.iter().zip(0..) {
             let color = COLORS[n % COLORS.len()];
             if series.joined {
-                self.line(&[(left - 11, y), (left + 11, y)], color, 2)?;
+                self.canvas.line(&[(left - 11, y), (left + 11, y)], color, 2)?;
             }
             self.marker(n, (left, y), 5, color, true)?;
             y += self.wrapped(&series.label, (left + 20, y))?;
@@ -255,15 +226,15 @@ where
         }
         if chart.smaller_is_better {
             y += 12;
-            self.line(&[(left - 11, y + 4), (left, y + 4), (left, y - 4), (left + 11, y - 4)], GREY, 2)?;
+            self.canvas.line(&[(left - 11, y + 4), (left, y + 4), (left, y - 4), (left + 11, y - 4)], GREY, 2)?;
             y += self.wrapped("Pareto front: nothing is better in both", (left + 20, y))?;
             self.marker(0, (left, y), 5, GREY, false)?;
             y += self.wrapped("hollow: something is better in both", (left + 20, y))?;
             y += 8;
             let (tip, end) = ((left - 8, y + 8), (left + 8, y - 8));
-            self.line(&[end, tip], INK, 2)?;
-            self.line(&[(tip.0, tip.1 - 7), tip, (tip.0 + 7, tip.1)], INK, 2)?;
-            self.text("better", (left + 20, y), 15, INK, HPos::Left, VPos::Center)?;
+            self.canvas.line(&[end, tip], INK, 2)?;
+            self.canvas.line(&[(tip.0, tip.1 - 7), tip, (tip.0 + 7, tip.1)], INK, 2)?;
+            self.canvas.text("better", (left + 20, y), 15, INK, HPos::Left, VPos::Center)?;
         }
         Ok(())
     }
@@ -275,7 +246,7 @@ where
         let mut line = String::new();
         for word in words.split(' ') {
             if !line.is_empty() && width(&line, 14) + width(word, 14) + 6 > room {
-                self.text(&line, (x, y), 14, INK, HPos::Left, VPos::Center)?;
+                self.canvas.text(&line, (x, y), 14, INK, HPos::Left, VPos::Center)?;
                 line.clear();
                 y += 17;
             }
@@ -284,28 +255,8 @@ where
             }
             line.push_str(word);
         }
-        self.text(&line, (x, y), 14, INK, HPos::Left, VPos::Center)?;
+        self.canvas.text(&line, (x, y), 14, INK, HPos::Left, VPos::Center)?;
         Ok(y - start + 24)
-    }
-
-    fn scaled(&self, (x, y): (i32, i32)) -> (i32, i32) {
-        (x * self.scale, y * self.scale)
-    }
-
-    fn style(&self, size: i32, color: RGBColor) -> TextStyle<'static> {
-        ("sans-serif", f64::from(size * self.scale)).into_font().color(&color)
-    }
-
-    fn text(&self, text: &str, at: (i32, i32), size: i32, color: RGBColor, h: HPos, v: VPos) -> Result<(), Refused> {
-        let style = self.style(size, color).pos(Pos::new(h, v));
-        self.area.draw(&Text::new(text.to_owned(), self.scaled(at), style))?;
-        Ok(())
-    }
-
-    fn line(&self, points: &[(i32, i32)], color: RGBColor, width: i32) -> Result<(), Refused> {
-        let points: Vec<_> = points.iter().map(|point| self.scaled(*point)).collect();
-        self.area.draw(&PathElement::new(points, color.stroke_width((width * self.scale) as u32)))?;
-        Ok(())
     }
 
     /// The first guide has long dashes, the next ones dots.
@@ -317,7 +268,7 @@ where
             |share: f64| ((f64::from(a.0) + dx * share).round() as i32, (f64::from(a.1) + dy * share).round() as i32);
         for n in 0..dashes as u32 {
             let start = f64::from(n) / dashes;
-            self.line(&[at(start), at(start + share / dashes)], GREY, 1)?;
+            self.canvas.line(&[at(start), at(start + share / dashes)], GREY, 1)?;
         }
         Ok(())
     }
@@ -333,35 +284,12 @@ where
         };
         let inside = if filled { color } else { WHITE };
         if corners.is_empty() {
-            self.area.draw(&Circle::new(self.scaled(at), r * self.scale, inside.filled()))?;
-            self.area.draw(&Circle::new(
-                self.scaled(at),
-                r * self.scale,
-                color.stroke_width((2 * self.scale) as u32),
-            ))?;
-            return Ok(());
+            return self.canvas.circle(at, r, inside, color);
         }
         let r = if kind % 5 == 3 { r + 2 } else { r };
         let mut outline: Vec<(i32, i32)> = corners.iter().map(|(dx, dy)| (x + dx * r, y + dy * r)).collect();
-        let scaled: Vec<_> = outline.iter().map(|point| self.scaled(*point)).collect();
-        self.area.draw(&Polygon::new(scaled, inside.filled()))?;
+        self.canvas.filled(&outline, inside)?;
         outline.push(outline[0]);
-        self.line(&outline, color, 2)
+        self.canvas.line(&outline, color, 2)
     }
-}
-
-/// About how wide a text is, in pixels.
-fn width(text: &str, size: i32) -> i32 {
-    (text.chars().count() as i32 * size * 54).div_euclid(100)
-}
-
-/// The one font of the drawings, the same on every machine.
-fn fonts() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        for style in [FontStyle::Normal, FontStyle::Bold] {
-            // A font that is refused shows as an error of the drawing.
-            let _ = register_font("sans-serif", style, epaint_default_fonts::UBUNTU_LIGHT);
-        }
-    });
 }

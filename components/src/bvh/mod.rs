@@ -9,12 +9,14 @@
 mod bins;
 mod blocks;
 mod build;
+mod reach;
 mod traverse;
 
 use crate::{math, space::Bounds};
 use glam::DVec3;
 
 pub(crate) use blocks::{BLOCK, Blocks};
+pub(crate) use reach::reaches;
 pub(crate) use traverse::{Leaf, Visitor};
 
 /// Children of a node.

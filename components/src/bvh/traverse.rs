@@ -27,7 +27,7 @@ const TINY32: f64 = f32::from_bits(1) as f64;
 /// are rounded to `f32`, the way that makes near distances smaller and far ones larger; the two operations and the
 /// rounding then add at most three roundings, which [`SLACK`] outweighs. An inverse that makes near distances smaller
 /// stays finite, one that makes far distances larger is never zero.
-struct BoxRay<L: Lanes> {
+pub(super) struct BoxRay<L: Lanes> {
     /// Origins and inverse directions for near planes.
     near: [(L::F, L::F); 3],
     /// Origins and inverse directions for far planes.
@@ -39,7 +39,7 @@ struct BoxRay<L: Lanes> {
 
 impl<L: Lanes> BoxRay<L> {
     #[inline(always)]
-    fn new(lanes: L, ray: &Ray) -> Self {
+    pub(super) fn new(lanes: L, ray: &Ray) -> Self {
         let l = lanes;
         let origin = l.d_load(&padded(ray.origin));
         let direction = l.d_load(&padded(ray.direction));
@@ -76,7 +76,7 @@ impl<L: Lanes> BoxRay<L> {
 
     /// Distances at which the ray enters the children of a node, and which children it enters within `limit`.
     #[inline(always)]
-    fn enter(&self, lanes: L, node: &Node, limit: f32) -> (L::F, u32) {
+    pub(super) fn enter(&self, lanes: L, node: &Node, limit: f32) -> (L::F, u32) {
         let l = lanes;
         let mut near = l.f_splat(0.0);
         let mut far = l.f_splat(limit);
@@ -106,7 +106,7 @@ fn larger(a: f64, b: f64) -> f64 {
 
 /// An `f32` not below a distance that is not negative.
 #[inline(always)]
-fn above(t: f64) -> f32 {
+pub(super) fn above(t: f64) -> f32 {
     (t * (1.0 + ULP32) + TINY32) as f32
 }
 

@@ -5,7 +5,7 @@ use super::{
     triangle_kernel::{TriangleKernel, WithKernel, choose},
 };
 use crate::{
-    bvh::{Box32, Bvh},
+    bvh::{Box32, Bvh, reaches},
     method::{Accelerator, Methods},
     primitive::{Cost, Hit},
     space::{BoundingSphere, Bounds, Ray},
@@ -49,12 +49,7 @@ impl TriangleMesh {
 
     fn spheres(&self) -> &(SphereTree, Vec<Corners>) {
         self.others.spheres.get_or_init(|| {
-            // Of a triangle: about the middle of its box, to the farthest vertex.
-            let sphere = |i| {
-                let corners = self.corners(i);
-                BoundingSphere::about(Bounds::of_points(corners).center(), corners)
-            };
-            let tree = SphereTree::build((0..self.len()).map(sphere));
+            let tree = SphereTree::build((0..self.len()).map(|i| BoundingSphere::of_triangle(self.corners(i))));
             let triangles = self.ordered(tree.order());
             (tree, triangles)
         })
@@ -79,7 +74,7 @@ impl WithKernel for Nearest<'_> {
 
     fn run<K: TriangleKernel>(self, kernel: &K) -> Option<Hit> {
         let Self { mesh, ray, t_max, with, cost } = self;
-        let mut search = Search { kernel, limit: t_max, best: None };
+        let mut search = Search { ray, kernel, limit: t_max, best: None };
         match with.accelerator {
             Accelerator::Tree => {
                 let (tree, triangles) = mesh.boxes();
@@ -115,7 +110,8 @@ impl WithKernel for Any<'_> {
         let test = |run: Range<usize>, triangles: &[Corners], cost: &mut Cost| {
             triangles[run].iter().any(|corners| {
                 cost.primitives += 1;
-                kernel.hit(corners.map(point), t_max).is_some_and(|hit| hit.t < t_max)
+                let vertices = corners.map(point);
+                kernel.hit(vertices, t_max).is_some_and(|hit| hit.t < t_max && reaches(ray, &vertices, hit.t))
             })
         };
         match with.accelerator {
@@ -134,6 +130,7 @@ impl WithKernel for Any<'_> {
 
 /// A search for the nearest triangle.
 struct Search<'a, K> {
+    ray: &'a Ray,
     kernel: &'a K,
     limit: f64,
     best: Option<Hit>,
@@ -144,7 +141,9 @@ impl<K: TriangleKernel> Search<'_, K> {
     fn test(&mut self, run: Range<usize>, triangles: &[Corners], order: &[u32], cost: &mut Cost) -> f64 {
         cost.primitives += run.len() as u64;
         for i in run {
-            if let Some(hit) = self.kernel.hit(triangles[i].map(point), self.limit) {
+            let vertices = triangles[i].map(point);
+            let hit = self.kernel.hit(vertices, self.limit);
+            if let Some(hit) = hit.filter(|hit| reaches(self.ray, &vertices, hit.t)) {
                 let hit = Hit { t: hit.t, part: order[i] };
                 // On equal distance the lowest index, whatever the order of the walk.
                 if self.best.is_none_or(|best| hit.t < best.t || hit.part < best.part) {

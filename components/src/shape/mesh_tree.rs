@@ -5,7 +5,7 @@ use super::{
     shear::{Block, RayFrame},
 };
 use crate::{
-    bvh::{BLOCK, Blocks, Box32, Bvh, Leaf, Visitor},
+    bvh::{BLOCK, Blocks, Box32, Bvh, Leaf, Visitor, reaches},
     lanes::{self, Job, Lanes},
     primitive::{Cost, Hit},
     space::{BoundingSphere, Bounds, Ray},
@@ -94,7 +94,14 @@ impl Job for Nearest<'_> {
     fn run<L: Lanes>(self, lanes: L) -> Option<Hit> {
         let ray = self.ray.transformed(self.object_from_world);
         let tree = self.tree;
-        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: self.t_max, best: None };
+        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: self.t_max, best: None, only_reached: None };
+        tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
+        // If what was found last counts, what was found on the way does not matter: all that was passed over is farther.
+        let counts = |hit: &Hit| reaches(&ray, &tree.vertices(hit.part), hit.t);
+        if search.best.as_ref().is_none_or(counts) {
+            return search.best;
+        }
+        search = Search { limit: self.t_max, best: None, only_reached: Some(&ray), ..search };
         tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
         search.best
     }
@@ -105,6 +112,8 @@ struct Search<'a> {
     frame: RayFrame,
     limit: f64,
     best: Option<Hit>,
+    /// The ray, where each hit is to be checked: see [`reaches`].
+    only_reached: Option<&'a Ray>,
 }
 
 impl Visitor for Search<'_> {
@@ -119,6 +128,9 @@ impl Visitor for Search<'_> {
                 let lane = hits.trailing_zeros() as usize % BLOCK;
                 hits &= hits - 1;
                 let hit = Hit { t: distances[lane], part: order[lane] };
+                if self.only_reached.is_some_and(|ray| !reaches(ray, &self.tree.vertices(hit.part), hit.t)) {
+                    continue;
+                }
                 // On equal distance the lowest index, whatever the order of the walk.
                 if self.best.is_none_or(|best| hit.t < best.t || hit.t == best.t && hit.part < best.part) {
                     self.best = Some(hit);
@@ -146,7 +158,7 @@ impl Job for Blocked<'_> {
     fn run<L: Lanes>(self, lanes: L) -> bool {
         let ray = self.ray.transformed(self.object_from_world);
         let tree = self.tree;
-        let mut search = AnySearch { tree, frame: RayFrame::new(&ray), t_max: self.t_max, found: false };
+        let mut search = AnySearch { tree, ray: &ray, frame: RayFrame::new(&ray), t_max: self.t_max, found: false };
         tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
         search.found
     }
@@ -154,6 +166,7 @@ impl Job for Blocked<'_> {
 
 struct AnySearch<'a> {
     tree: &'a MeshTree,
+    ray: &'a Ray,
     frame: RayFrame,
     t_max: f64,
     found: bool,
@@ -169,7 +182,8 @@ impl Visitor for AnySearch<'_> {
             while hits != 0 {
                 let lane = hits.trailing_zeros() as usize % BLOCK;
                 hits &= hits - 1;
-                if distances[lane] < self.t_max {
+                let (t, triangle) = (distances[lane], self.tree.tree.order()[leaf.first][lane]);
+                if t < self.t_max && reaches(self.ray, &self.tree.vertices(triangle), t) {
                     self.found = true;
                     return None;
                 }

@@ -7,6 +7,7 @@ use super::{
     triangle_kernel::{TriangleKernel, WithKernel, choose},
 };
 use crate::{
+    bvh::reaches,
     describe::{Describe, Fault},
     method::Methods,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
@@ -81,12 +82,12 @@ impl Primitive for Triangle {
     #[inline]
     fn hit(packed: &PackedTriangle, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
         cost.primitives += 1;
-        RayFrame::new(ray).hit(packed.vertices, t_max).map(|h| Hit { t: h.t, part: 0 })
+        Alone { vertices: packed.vertices, ray, t_max }.run(&RayFrame::new(ray))
     }
 
     fn hit_with(packed: &PackedTriangle, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Hit> {
         cost.primitives += 1;
-        choose(with, ray, Alone { vertices: packed.vertices, t_max })
+        choose(with, ray, Alone { vertices: packed.vertices, ray, t_max })
     }
 
     fn surface(packed: &PackedTriangle, ray: &Ray, _: Hit) -> Surface {
@@ -105,22 +106,25 @@ impl Primitive for Triangle {
         }
     }
 
-    fn bounding_sphere(packed: &PackedTriangle, bounds: &Bounds) -> BoundingSphere {
-        BoundingSphere::about(bounds.center(), packed.vertices)
+    fn bounding_sphere(packed: &PackedTriangle, _: &Bounds) -> BoundingSphere {
+        BoundingSphere::of_triangle(packed.vertices)
     }
 }
 
 /// A triangle to be tested by any method.
-struct Alone {
+struct Alone<'a> {
     vertices: [DVec3; 3],
+    ray: &'a Ray,
     t_max: f64,
 }
 
-impl WithKernel for Alone {
+impl WithKernel for Alone<'_> {
     type Output = Option<Hit>;
 
+    #[inline]
     fn run<K: TriangleKernel>(self, kernel: &K) -> Option<Hit> {
-        kernel.hit(self.vertices, self.t_max).map(|hit| Hit { t: hit.t, part: 0 })
+        let hit = kernel.hit(self.vertices, self.t_max).filter(|hit| reaches(self.ray, &self.vertices, hit.t));
+        hit.map(|hit| Hit { t: hit.t, part: 0 })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::geometry;
 use crate::{
-    exact::Crossing,
+    exact::{self, Crossing},
     kernels::{self, Spoiled},
     meshes::{spiky, triangles},
     random::Random,
@@ -33,8 +33,8 @@ pub(super) const CASES: &[Case] = &[
     Case {
         id: "F03",
         name: "exact hits of edges are lost",
-        about: "whole coordinates, rays through quarter points of edges and vertices; oracle: integers",
-        run: exact,
+        about: "whole coordinates, rays through quarter points of edges and vertices; oracle: integers; errors of t in u",
+        run: exact_hits,
     },
     Case {
         id: "F04",
@@ -102,9 +102,8 @@ fn aimed(bench: &mut Bench, vertex: bool) {
     let mesh = spiky();
     let all = triangles(&mesh);
     let seed = if vertex { 2 } else { 1 };
-    // A tenth is enough to see what fails.
     for (name, test, fails) in TESTS {
-        let tally = bench.tally(seed, bench.part(10), |random| Trial::of(test(&aim(random, &all, vertex), &all)));
+        let tally = bench.tally(seed, bench.others(), |random| Trial::of(test(&aim(random, &all, vertex), &all)));
         bench.add(if *fails { Failing } else { Shown }, name, "", tally);
     }
     let tally =
@@ -121,13 +120,14 @@ fn aimed(bench: &mut Bench, vertex: bool) {
 }
 
 /// A mesh of whole coordinates; rays from whole origins along exact directions to quarter points and vertices.
-fn exact(bench: &mut Bench) {
+fn exact_hits(bench: &mut Bench) {
     let whole: Vec<[DVec3; 3]> = triangles(&spiky()).into_iter().map(|t| t.map(|v| (v * 16.0).round() * 4.0)).collect();
     let ray = |random: &mut Random| {
         let [a, b, _] = whole[random.below(whole.len())];
         let at = a + (b - a) * (random.below(4) as f64 * 0.25);
         let origin = random.lattice(8);
-        Ray { origin, direction: at - origin }
+        // A multiple is still exact, and its distances are not.
+        Ray { origin, direction: (at - origin) * (1 + random.below(7)) as f64 }
     };
     // The nearest in integers, on equal distance the first.
     let nearest = |ray: &Ray| {
@@ -140,38 +140,48 @@ fn exact(bench: &mut Bench) {
         }
         best
     };
-    let found = |ray: &Ray, i: usize, exact: &Crossing, hit: Option<f64>| match hit {
-        None => Trial::Fail(f64::NAN),
-        Some(t) => {
-            let (over, under) = exact.distance;
-            let expected = over as f64 / under as f64;
-            let _ = (ray, i);
-            Trial::within((t - expected).abs() / expected, 64.0 * super::U)
-        }
-    };
-    fn first<K: TriangleKernel>(ray: &Ray, all: &[[DVec3; 3]]) -> Option<f64> {
+    fn first<K: TriangleKernel>(ray: &Ray, all: &[[DVec3; 3]]) -> Option<(f64, usize)> {
         let kernel = K::new(ray);
-        let hits = all.iter().filter_map(|t| kernel.hit(*t, f64::INFINITY).map(|hit| hit.t));
-        hits.fold(None, |best: Option<f64>, t| Some(best.map_or(t, |best| if t < best { t } else { best })))
+        let hits = all.iter().enumerate().filter_map(|(i, t)| kernel.hit(*t, f64::INFINITY).map(|hit| (hit.t, i)));
+        hits.reduce(|best, hit| if hit.0 < best.0 { hit } else { best })
     }
-    type First = fn(&Ray, &[[DVec3; 3]]) -> Option<f64>;
-    let tests: [(&str, First, _, u64); 3] = [
-        ("Möller–Trumbore f32", first::<MollerTrumbore<f32>>, Shown, 10),
-        ("Möller–Trumbore f64", first::<MollerTrumbore<f64>>, Shown, 10),
-        ("Snell", first::<Sheared<f64>>, Sound, 1),
+    // How many triangles a ray meets says whether it starts inside: not where it meets edges, which belong to several.
+    fn odd<K: TriangleKernel>(ray: &Ray, all: &[[DVec3; 3]]) -> bool {
+        let kernel = K::new(ray);
+        all.iter().filter(|t| kernel.hit(**t, f64::INFINITY).is_some()).count() % 2 == 1
+    }
+    let tally = bench.tally(3, bench.full(), |random| {
+        let ray = ray(random);
+        let Some((_, crossing)) = nearest(&ray) else { return Trial::Skip };
+        match first::<Sheared<f64>>(&ray, &whole) {
+            None => Trial::Fail(f64::NAN),
+            Some((t, _)) => Trial::within(exact::relative_error(t, crossing.distance) / super::U, 16.0),
+        }
+    });
+    bench.add(Sound, "Snell: hit, and t within 16u", "", tally);
+    let tally = bench.tally(3, bench.others(), |random| {
+        let ray = ray(random);
+        let Some((lowest, _)) = nearest(&ray) else { return Trial::Skip };
+        Trial::of(first::<Sheared<f64>>(&ray, &whole).is_some_and(|(_, i)| i == lowest))
+    });
+    bench.add(Shown, "Snell: the lowest of all that are as near in truth, not only in f64; no promise", "", tally);
+    let tally = bench.tally(3, bench.others(), |random| {
+        let ray = ray(random);
+        let Some((_, crossing)) = nearest(&ray) else { return Trial::Skip };
+        match first::<MollerTrumbore<f32>>(&ray, &whole) {
+            None => Trial::Fail(f64::NAN),
+            Some((t, _)) => Trial::within(exact::relative_error(t, crossing.distance) / super::U, 16.0),
+        }
+    });
+    bench.add(Failing, "Möller–Trumbore f32: hit, and t within 16u", "", tally);
+    type Odd = fn(&Ray, &[[DVec3; 3]]) -> bool;
+    let parity: [(&str, Odd); 2] = [
+        ("inside by an odd count of hits, Möller–Trumbore f64", odd::<MollerTrumbore<f64>>),
+        ("inside by an odd count of hits, sheared f64", odd::<Sheared<f64>>),
     ];
-    for (name, test, expected, part) in tests {
-        let tally = bench.tally(3, bench.part(part), |random| {
-            let ray = ray(random);
-            match nearest(&ray) {
-                None => Trial::Skip,
-                Some((i, crossing)) => {
-                    let hit = test(&ray, &whole);
-                    if expected == Sound { found(&ray, i, &crossing, hit) } else { Trial::of(hit.is_some()) }
-                }
-            }
-        });
-        bench.add(expected, name, "", tally);
+    for (name, test) in parity {
+        let tally = bench.tally(3, bench.others(), |random| Trial::of(test(&ray(random), &whole)));
+        bench.add(Failing, name, "", tally);
     }
     // Which of exact ties is named: the lowest index, whatever the tree.
     let indexed: Vec<[f32; 3]> = whole.iter().flatten().map(|v| v.as_vec3().to_array()).collect();
@@ -210,17 +220,22 @@ fn matrix(bench: &mut Bench) {
                 let origin = random.cube() * (0.28 * scale) + offset;
                 Ray { origin, direction: (at - origin).normalize_or(DVec3::X) }
             };
-            let tests: [(&str, Test); 4] = [
-                ("Möller–Trumbore f32", hit_by::<MollerTrumbore<f32>>),
-                ("Möller–Trumbore f32, det ≥ 1e-6", |ray, all| {
-                    all.iter().any(|t| kernels::tolerant::<f32>(ray, t, 1e-6, 0.0).is_some())
-                }),
-                ("Möller–Trumbore f64", hit_by::<MollerTrumbore<f64>>),
-                ("sheared f32", hit_by::<Sheared<f32>>),
+            // Near the origin there is room for leaks in f32; far from it none for the mesh; between, it is a heap of
+            // large steps, of which nothing is expected.
+            let (near, gone) = (far <= 1e4 * scale, far >= 1e8 * scale);
+            let tests: [(&str, Test, bool); 4] = [
+                ("Möller–Trumbore f32", hit_by::<MollerTrumbore<f32>>, near || gone),
+                (
+                    "Möller–Trumbore f32, det ≥ 1e-6",
+                    |ray, all| all.iter().any(|t| kernels::tolerant::<f32>(ray, t, 1e-6, 0.0).is_some()),
+                    near || gone || scale <= 1e-3,
+                ),
+                ("Möller–Trumbore f64", hit_by::<MollerTrumbore<f64>>, true),
+                ("sheared f32", hit_by::<Sheared<f32>>, gone),
             ];
-            for (name, test) in tests {
-                let tally = bench.tally(4, bench.part(100), |random| Trial::of(test(&ray(random), &placed)));
-                bench.add_at(Shown, name, scale, far, tally);
+            for (name, test, fails) in tests {
+                let tally = bench.tally(4, bench.others(), |random| Trial::of(test(&ray(random), &placed)));
+                bench.add_at(if fails { Failing } else { Shown }, name, scale, far, tally);
             }
             let placement = Transform::new([Step::Scale(DVec3::splat(scale)), Step::Translate(offset)]);
             let scene = geometry(|world| {
@@ -239,9 +254,9 @@ fn tolerance(bench: &mut Bench) {
     for slack in [1e-6, 1e-5] {
         let hits = |ray: &Ray| all.iter().filter(|t| kernels::tolerant::<f32>(ray, t, 0.0, slack).is_some()).count();
         let name = format!("Möller–Trumbore f32, u, v ≥ −{slack:e}");
-        let tally = bench.tally(5, bench.part(10), |random| Trial::of(hits(&aim(random, &all, false)) > 0));
+        let tally = bench.tally(5, bench.others(), |random| Trial::of(hits(&aim(random, &all, false)) > 0));
         bench.add(Shown, &name, "leaks", tally);
-        let tally = bench.tally(5, bench.part(10), |random| Trial::of(hits(&aim(random, &all, false)) < 2));
+        let tally = bench.tally(5, bench.others(), |random| Trial::of(hits(&aim(random, &all, false)) < 2));
         bench.add(Failing, &name, "double hits", tally);
     }
     let tally =
@@ -258,9 +273,9 @@ fn refused(bench: &mut Bench) {
         let origin = (a * (1.0 - 1e-7 * random.unit())).as_vec3().as_dvec3();
         Ray { origin, direction: (b - origin).normalize() }
     };
-    let tally = bench.tally(6, bench.part(10), |random| Trial::of(!leaks(&aim(random, &all, false))));
+    let tally = bench.tally(6, bench.others(), |random| Trial::of(!leaks(&aim(random, &all, false))));
     bench.add(Shown, "sheared f32, hits refused within their error", "from the middle", tally);
-    let tally = bench.tally(6, bench.part(10), |random| {
+    let tally = bench.tally(6, bench.others(), |random| {
         let ray = near(random);
         if hit_by::<Sheared<f32>>(&ray, &all) { Trial::of(!leaks(&ray)) } else { Trial::Skip }
     });
@@ -275,7 +290,7 @@ fn refused(bench: &mut Bench) {
 fn fused(bench: &mut Bench) {
     let all = triangles(&spiky());
     let fused = |ray: &Ray| all.iter().any(|t| kernels::sheared(ray, t, Spoiled::Fused));
-    let tally = bench.tally(7, bench.part(10), |random| Trial::of(fused(&aim(random, &all, false))));
+    let tally = bench.tally(7, bench.others(), |random| Trial::of(fused(&aim(random, &all, false))));
     bench.add(Failing, "sheared f64, fused", "", tally);
     let tally =
         bench.tally(7, bench.full(), |random| Trial::of(hit_by::<Sheared<f64>>(&aim(random, &all, false), &all)));
@@ -293,9 +308,12 @@ fn soup(bench: &mut Bench) {
     };
     let mut random = Random::new(8);
     let perturbed: Vec<[DVec3; 3]> = all.iter().map(|t| t.map(|v| off(&mut random, v))).collect();
-    for (name, soup, expected) in
-        [("Snell, copied vertices", &all, Sound), ("Snell, vertices an ulp off: no promise", &perturbed, Shown)]
-    {
+    let apart: Vec<[DVec3; 3]> = all.iter().map(|t| t.map(|v| v + random.direction() * 1e-6)).collect();
+    for (name, soup, expected) in [
+        ("Snell, copied vertices", &all, Sound),
+        ("Snell, vertices an ulp off: no promise", &perturbed, Shown),
+        ("Snell, vertices up to 1e-6 off: gaps are gaps", &apart, Failing),
+    ] {
         let scene = geometry(|world| {
             for [a, b, c] in soup {
                 world.spawn(Triangle { a: *a, b: *b, c: *c, ..Triangle::default() });

@@ -3,6 +3,7 @@
 mod boxes;
 mod leaks;
 mod secondary;
+mod size;
 mod spheres;
 mod triangles;
 
@@ -17,10 +18,11 @@ const U: f64 = f64::EPSILON / 2.0;
 
 /// In the order of the catalogue.
 pub(crate) fn all() -> Vec<Case> {
-    let mut all: Vec<Case> = [leaks::CASES, triangles::CASES, spheres::CASES, boxes::CASES, secondary::CASES]
-        .into_iter()
-        .flat_map(|cases| cases.iter().map(|case| Case { ..*case }))
-        .collect();
+    let mut all: Vec<Case> =
+        [leaks::CASES, triangles::CASES, spheres::CASES, boxes::CASES, secondary::CASES, size::CASES]
+            .into_iter()
+            .flat_map(|cases| cases.iter().map(|case| Case { ..*case }))
+            .collect();
     all.sort_by_key(|case| case.id);
     all
 }
