@@ -6,6 +6,7 @@ use super::{
     obj::{self, Model},
 };
 use bevy_ecs::prelude::*;
+use rayon::prelude::*;
 use snell_components::{color::Encoding, texture::Image};
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -25,6 +26,8 @@ pub(super) struct Assets {
     models: Vec<(String, Model)>,
     model_by_file: BTreeMap<PathBuf, Option<usize>>,
     image_by_file: BTreeMap<PathBuf, Option<Arc<Image>>>,
+    /// Images that were decoded before they were asked for.
+    decoded: BTreeMap<PathBuf, Result<Image, Fault>>,
     /// All that is wrong with the files, in the order of reading.
     pub(super) faults: Vec<Fault>,
     /// What was repaired or passed over.
@@ -75,6 +78,23 @@ impl Assets {
         self.models.get(number)
     }
 
+    /// Decodes some files in parallel, each once, for [`Assets::image`] to find. What is no file is left to it.
+    pub(super) fn decode_images(&mut self, files: Vec<PathBuf>) {
+        let mut found = BTreeMap::new();
+        for file in files {
+            if let Ok(path) = file.canonicalize()
+                && path.is_file()
+            {
+                found.entry(path).or_insert(file);
+            }
+        }
+        // One alone is as soon decoded when it is asked for.
+        if found.len() > 1 {
+            let decoded = found.into_par_iter().map(|(path, file)| (path, image::read(&file)));
+            self.decoded = decoded.collect();
+        }
+    }
+
     /// The image in a file; `None` if the file was read but has a fault, which is noted here.
     ///
     /// # Errors
@@ -84,7 +104,8 @@ impl Assets {
         if let Some(known) = self.image_by_file.get(&found) {
             return Ok(known.clone());
         }
-        let image = image::read(file).map_err(|fault| self.faults.push(fault)).ok().map(Arc::new);
+        let read = self.decoded.remove(&found).unwrap_or_else(|| image::read(file));
+        let image = read.map_err(|fault| self.faults.push(fault)).ok().map(Arc::new);
         self.image_by_file.insert(found, image.clone());
         Ok(image)
     }
@@ -123,4 +144,33 @@ fn nearest_file(file: &Path) -> String {
     names.sort_unstable();
     let near = nearest(name, names.iter().map(String::as_str));
     near.map_or(String::new(), |near| format!("; did you mean `{near}`?"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ::image::{ImageBuffer, Rgb};
+
+    #[test]
+    fn images_decoded_ahead_are_those_that_are_asked_for() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = |name: &str| folder.path().join(name);
+        for (name, level) in [("a.png", 10u8), ("b.png", 20)] {
+            ImageBuffer::from_pixel(1, 1, Rgb([level; 3])).save(file(name)).expect("saved");
+        }
+        fs::write(file("broken.png"), "no image").expect("written");
+        let names = ["a.png", "b.png", "a.png", "broken.png", "absent.png"];
+
+        let mut one_by_one = Assets::default();
+        let plain = names.map(|name| one_by_one.image(&file(name)));
+        let mut ahead = Assets::default();
+        ahead.decode_images(names.map(file).to_vec());
+        assert_eq!(ahead.decoded.len(), 3, "each file once");
+        // Had it not been decoded, it would now be another.
+        ImageBuffer::from_pixel(1, 1, Rgb([30u8; 3])).save(file("a.png")).expect("saved");
+        assert_eq!(names.map(|name| ahead.image(&file(name))), plain);
+        assert!(ahead.decoded.is_empty());
+        assert_eq!(ahead.faults.len(), 1);
+        assert_eq!(ahead.faults, one_by_one.faults);
+    }
 }

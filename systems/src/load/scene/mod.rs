@@ -1,12 +1,14 @@
 //! Reads scenes: RON text with named entities, each a list of components.
 //!
 //! In order: the texts of all files ([`mod@include`]), what each says ([`node`], [`document`]), the components of every
-//! entity ([`entity`], [`component`], [`values`]), what entities take from each other ([`links`]); and only if nothing at
+//! entity ([`entity`], [`component`], [`values`]; images [`ahead`] of them), what entities take from each other ([`links`]); and only if nothing at
 //! all is wrong, the entities in the world ([`spawn`]).
 
 mod source;
 
 mod node;
+
+mod ahead;
 
 mod document;
 
@@ -77,6 +79,7 @@ fn read(world: &mut World, sources: &[Source], mut report: Report) -> Result<Vec
     let mut assets = Assets::default();
     let settings = read_settings(sources, &mut assets, &mut report);
     let layout = Layout::new(sources, &mut report);
+    ahead::decode_images(registry, &layout, sources, &mut assets);
     let mut reader = entity::Reader {
         registry,
         layout: &layout,
