@@ -25,6 +25,8 @@ pub struct Snapshot {
     pub ceiling: Option<Arc<Ceiling>>,
     /// What rays meet.
     pub geometry: Arc<Geometry>,
+    /// The same for rays toward a light, if light passes through anything.
+    pub parted: Option<Arc<Parted>>,
     /// What objects are made of.
     pub materials: Arc<Materials>,
     /// What shines.
@@ -33,6 +35,14 @@ pub struct Snapshot {
     pub names: Arc<Vec<Option<Name>>>,
     /// Objects that are left out of the picture, by name, with the reason.
     pub left_out: Arc<Vec<(String, String)>>,
+}
+
+/// The shapes of a scene, those that light passes through apart: what is opaque blocks a light wherever it is on the way.
+pub struct Parted {
+    /// Shapes that no light passes through.
+    pub opaque: Geometry,
+    /// Shapes that some light passes through somewhere, or that bound a medium.
+    pub clear: Geometry,
 }
 
 /// The lights of a scene.
@@ -59,8 +69,6 @@ pub struct Materials {
     pub of_object: Vec<MaterialOfObject>,
     /// The clear bodies, by rank of the object; empty if there are none.
     pub media: Vec<Option<Medium>>,
-    /// By rank of the object, whether light passes through it anywhere or it bounds a medium; empty if none is so.
-    pub clear: Vec<bool>,
     /// Whether light passes through any material.
     pub any_transparent: bool,
     /// Whether any texture asks how much of a surface a ray stands for.

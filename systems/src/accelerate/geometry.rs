@@ -1,7 +1,6 @@
 //! Every shape of a scene, and the tree over them.
 
 use super::pool::{Best, ErasedPool, Nearest};
-use core::ops::Range;
 use snell_components::{
     bvh::{Box32, Bvh},
     method::{Accelerator, Methods, Precision},
@@ -23,14 +22,6 @@ struct Run {
     pool: u32,
     first: u32,
     end: u32,
-    /// The object of the first shape.
-    owner: u32,
-}
-
-impl Run {
-    fn range(&self) -> Range<usize> {
-        self.first as usize..self.end as usize
-    }
 }
 
 /// Where a ray met an object.
@@ -90,12 +81,23 @@ impl Geometry {
     /// Builds the tree over the shapes of some pools.
     #[must_use]
     pub fn build<'a>(pools: impl Iterator<Item = &'a Arc<dyn ErasedPool>>) -> Self {
+        Self::build_of(pools, |_| true)
+    }
+
+    /// The shapes of some objects alone, told by their ranks; numbers of shapes differ from those here.
+    #[must_use]
+    pub fn of_objects(&self, objects: impl Fn(u32) -> bool) -> Self {
+        Self::build_of(self.pools.iter(), objects)
+    }
+
+    fn build_of<'a>(pools: impl Iterator<Item = &'a Arc<dyn ErasedPool>>, objects: impl Fn(u32) -> bool) -> Self {
         let pools: Vec<_> = pools.collect();
         let mut boxes = vec![];
         let mut shapes = vec![];
         let mut orders: Vec<Vec<u32>> = vec![vec![]; pools.len()];
         for (pool, shapes_of_pool) in pools.iter().enumerate() {
-            for (index, extent) in shapes_of_pool.extents().iter().enumerate() {
+            let owned = shapes_of_pool.extents().iter().zip(shapes_of_pool.objects()).enumerate();
+            for (index, (extent, _)) in owned.filter(|(_, (_, object))| objects(**object)) {
                 match extent {
                     Extent::Bounded(bounds) => {
                         boxes.push(Box32::around(bounds));
@@ -106,11 +108,7 @@ impl Geometry {
                 }
             }
         }
-        let owner = |pool: usize, order: &[u32]| order.first().map_or(0, |&i| pools[pool].objects()[i as usize]);
-        let whole = |(pool, order): (usize, &Vec<u32>)| {
-            let owner = owner(pool, order);
-            Run { pool: pool as u32, first: 0, end: order.len() as u32, owner }
-        };
+        let whole = |(pool, order): (usize, &Vec<u32>)| Run { pool: pool as u32, first: 0, end: order.len() as u32 };
         let unbounded: Vec<Run> = orders.iter().enumerate().map(whole).filter(|run| run.end > 0).collect();
 
         let tree = Bvh::build(boxes.into_iter(), LEAF);
@@ -126,7 +124,7 @@ impl Geometry {
                 let at = order.len() as u32;
                 match runs[begin..].last_mut() {
                     Some(run) if run.pool == pool => run.end += 1,
-                    _ => runs.push(Run { pool, first: at, end: at + 1, owner: owner(pool as usize, &[index]) }),
+                    _ => runs.push(Run { pool, first: at, end: at + 1 }),
                 }
                 order.push(index);
             }
@@ -179,66 +177,31 @@ impl Geometry {
     /// Nearest hit with `0 < t <= t_max`; among equally near ones the object first in the order of names.
     #[must_use]
     pub fn nearest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Nearest> {
-        self.nearest_by(ray, t_max, with, cost, |run, best, cost| {
-            self.pools[run.pool as usize].closest(run.range(), ray, with, best, cost);
-        })
-    }
-
-    /// [`Geometry::nearest`] among some objects, told by their ranks.
-    #[must_use]
-    pub fn nearest_of(
-        &self,
-        objects: impl Fn(u32) -> bool,
-        ray: &Ray,
-        t_max: f64,
-        with: &Methods,
-        cost: &mut Cost,
-    ) -> Option<Nearest> {
-        self.nearest_by(ray, t_max, with, cost, |run, best, cost| {
-            for run in self.parts(run, &objects) {
-                self.pools[run.pool as usize].closest(run.range(), ray, with, best, cost);
-            }
-        })
-    }
-
-    /// The shapes of a run that belong to some objects, each a run of its own.
-    #[inline]
-    fn parts(&self, run: &Run, objects: impl Fn(u32) -> bool) -> impl Iterator<Item = Run> {
-        let Run { pool, first, end, owner } = *run;
-        // Most runs are of one shape.
-        let rest = if end - first > 1 { self.pools[pool as usize].objects() } else { &[] };
-        let owner = move |i: u32| if i == first { owner } else { rest[i as usize] };
-        (first..end)
-            .map(move |i| Run { pool, first: i, end: i + 1, owner: owner(i) })
-            .filter(move |run| objects(run.owner))
-    }
-
-    /// The nearest hit, where `search` looks through a run.
-    #[inline]
-    fn nearest_by(
-        &self,
-        ray: &Ray,
-        t_max: f64,
-        with: &Methods,
-        cost: &mut Cost,
-        search: impl Fn(&Run, &mut Best, &mut Cost),
-    ) -> Option<Nearest> {
         if !ray.is_valid() {
             return None;
         }
         let mut best = Best { pool: 0, limit: t_max, nearest: None };
-        let search = |run: &Run, best: &mut Best, cost: &mut Cost| {
-            best.pool = run.pool;
-            search(run, best, cost);
-        };
         for run in &self.unbounded {
-            search(run, &mut best, cost);
+            self.search(run, ray, with, &mut best, cost);
         }
+        if self.tree.is_none() && with.accelerator == Accelerator::Tree {
+            for run in &self.runs {
+                self.search(run, ray, with, &mut best, cost);
+            }
+        } else {
+            self.nearest_of_many(ray, with, &mut best, cost);
+        }
+        best.nearest
+    }
+
+    /// Searches the shapes that boxes hold; apart, so that a search of few has nothing of it to prepare.
+    #[inline(never)]
+    fn nearest_of_many(&self, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
         match (&self.tree, with.accelerator) {
             (Some(tree), Accelerator::Tree) => tree.walk(ray, best.limit, cost, |leaf, _, cost| {
                 let (begin, end) = self.leaf_runs[leaf.start];
                 for run in &self.runs[begin as usize..end as usize] {
-                    search(run, &mut best, cost);
+                    self.search(run, ray, with, best, cost);
                 }
                 best.limit
             }),
@@ -246,57 +209,33 @@ impl Geometry {
                 let Spheres { tree, runs } = self.spheres();
                 tree.walk(ray, best.limit, cost, |own, _, cost| {
                     for run in &runs[own] {
-                        search(run, &mut best, cost);
+                        self.search(run, ray, with, best, cost);
                     }
                     best.limit
                 });
             }
             _ => {
                 for run in &self.runs {
-                    search(run, &mut best, cost);
+                    self.search(run, ray, with, best, cost);
                 }
             }
         }
-        best.nearest
+    }
+
+    fn search(&self, run: &Run, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
+        best.pool = run.pool;
+        self.pools[run.pool as usize].closest(run.first as usize..run.end as usize, ray, with, best, cost);
     }
 
     /// Whether anything is hit with `0 < t < t_max`.
     #[must_use]
     pub fn blocked(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
-        self.blocked_if(ray, t_max, with, cost, |run, cost| {
-            self.pools[run.pool as usize].blocks(run.range(), ray, t_max, with, cost)
-        })
-    }
-
-    /// [`Geometry::blocked`] by some objects, told by their ranks.
-    #[must_use]
-    pub fn blocked_by(
-        &self,
-        objects: impl Fn(u32) -> bool,
-        ray: &Ray,
-        t_max: f64,
-        with: &Methods,
-        cost: &mut Cost,
-    ) -> bool {
-        self.blocked_if(ray, t_max, with, cost, |run, cost| {
-            let blocks = |run: Run| self.pools[run.pool as usize].blocks(run.range(), ray, t_max, with, cost);
-            self.parts(run, &objects).any(blocks)
-        })
-    }
-
-    /// Whether any run `blocks` the ray.
-    #[inline]
-    fn blocked_if(
-        &self,
-        ray: &Ray,
-        t_max: f64,
-        with: &Methods,
-        cost: &mut Cost,
-        blocks: impl Fn(&Run, &mut Cost) -> bool,
-    ) -> bool {
         if !ray.is_valid() {
             return false;
         }
+        let blocks = |run: &Run, cost: &mut Cost| {
+            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, with, cost)
+        };
         if self.unbounded.iter().any(|run| blocks(run, cost)) {
             return true;
         }
@@ -315,9 +254,7 @@ impl Geometry {
 
     fn spheres(&self) -> &Spheres {
         self.spheres.get_or_init(|| {
-            let owner = |pool: u32, i: u32| self.pools[pool as usize].objects()[i as usize];
-            let one = |pool: u32, i: u32| Run { pool, first: i, end: i + 1, owner: owner(pool, i) };
-            let each = |&Run { pool, first, end, .. }: &Run| (first..end).map(move |i| one(pool, i));
+            let each = |&Run { pool, first, end }: &Run| (first..end).map(move |i| Run { pool, first: i, end: i + 1 });
             let shapes: Vec<Run> = self.runs.iter().flat_map(each).collect();
             let sphere = |run: &Run| self.pools[run.pool as usize].bounding_sphere(run.first);
             let tree = SphereTree::build(shapes.iter().filter_map(sphere));

@@ -3,7 +3,7 @@
 use super::{Parts, spectrum::spectrum};
 use crate::{
     accelerate::Scenery,
-    snapshot::{Effect, Material, MaterialOfObject, Materials, Medium},
+    snapshot::{Effect, Material, MaterialOfObject, Materials, Medium, Parted},
 };
 use bevy_ecs::{prelude::*, query::QueryData, system::SystemParam};
 use snell_components::{
@@ -206,17 +206,17 @@ pub fn gather_materials(
         MaterialOfObject::Whole(number) => through(number),
         MaterialOfObject::Slots(slots) => slots.iter().any(through),
     };
-    let mut clear: Vec<bool> =
-        of_object.iter().zip(&media).map(|(of, medium)| medium.is_some() || passes(of)).collect();
-    if !clear.contains(&true) {
-        clear.clear();
-    }
+    let clear: Vec<bool> = of_object.iter().zip(&media).map(|(of, medium)| medium.is_some() || passes(of)).collect();
+    parts.parted = clear.contains(&true).then(|| {
+        let of = |wanted: bool| scenery.geometry.of_objects(|object| clear[object as usize] == wanted);
+        Arc::new(Parted { opaque: of(false), clear: of(true) })
+    });
     if media.iter().all(Option::is_none) {
         media.clear();
     }
     let any_transparent = all.iter().any(Material::is_transparent);
     let any_filtered = all.iter().any(Material::is_filtered);
-    parts.materials = Arc::new(Materials { all, names, of_object, media, clear, any_transparent, any_filtered });
+    parts.materials = Arc::new(Materials { all, names, of_object, media, any_transparent, any_filtered });
 }
 
 /// Ambient and diffuse strengths of things without a material, and of materials without a term of light.

@@ -17,7 +17,7 @@ pub use materials::{PackedTexture, gather_materials, pack_textures, unpack_textu
 use crate::{
     accelerate::Scenery,
     render::{Interior, beyond_depth},
-    snapshot::{Lights, Materials, Snapshot},
+    snapshot::{Lights, Materials, Parted, Snapshot},
 };
 use bevy_ecs::prelude::*;
 use snell_components::{camera::Camera, name::Name, settings::Settings, transform::GlobalTransform};
@@ -28,6 +28,8 @@ use std::{collections::BTreeSet, sync::Arc};
 pub struct Parts {
     /// What objects are made of.
     pub materials: Arc<Materials>,
+    /// The shapes, those that light passes through apart, if there are any.
+    pub parted: Option<Arc<Parted>>,
     /// What shines.
     pub lights: Arc<Lights>,
 }
@@ -100,6 +102,7 @@ pub fn extract(
             settings: settings.clone(),
             ceiling,
             geometry: scenery.geometry.clone(),
+            parted: parts.parted.clone(),
             materials: parts.materials.clone(),
             lights: parts.lights.clone(),
             names: Arc::new(scenery.objects.iter().map(|entity| name_of(*entity)).collect()),

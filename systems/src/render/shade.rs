@@ -8,7 +8,7 @@ use super::{
     optics,
 };
 use crate::{
-    accelerate::Nearest,
+    accelerate::{Geometry, Nearest},
     snapshot::{Effect, Lights, Material, MaterialOfObject, Snapshot},
 };
 use glam::{DVec2, DVec3};
@@ -180,23 +180,17 @@ impl<'a> Point<'a> {
     /// through. The ray goes straight, even where a view ray would bend.
     #[inline]
     fn visibility(&self, ray: Ray, length: f64, distance: f64, interior: &Interior, counts: &mut Counts) -> Rgb {
-        let Snapshot { geometry, materials, .. } = self.snapshot;
-        let clear = &materials.clear;
+        let Snapshot { geometry, parted, .. } = self.snapshot;
         let mut cost = Cost::default();
         counts.shadow += 1;
         let rest = short_of_the_light(&ray, length, distance);
-        let blocked = if clear.is_empty() {
-            geometry.blocked(&ray, rest, self.methods, &mut cost)
-        } else {
-            geometry.blocked_by(|object| !clear[object as usize], &ray, rest, self.methods, &mut cost)
-        };
+        let opaque = parted.as_ref().map_or(&**geometry, |parted| &parted.opaque);
+        let blocked = opaque.blocked(&ray, rest, self.methods, &mut cost);
         counts.add(cost);
-        if blocked {
-            Rgb::ZERO
-        } else if clear.is_empty() {
-            Rgb::ONE
-        } else {
-            self.through_clear(ray, rest, distance, interior.clone(), counts)
+        match parted {
+            _ if blocked => Rgb::ZERO,
+            None => Rgb::ONE,
+            Some(parted) => self.through_clear(&parted.clear, ray, rest, distance, interior, counts),
         }
     }
 
@@ -204,20 +198,21 @@ impl<'a> Point<'a> {
     #[inline(never)]
     fn through_clear(
         &self,
+        clear: &Geometry,
         mut ray: Ray,
         mut rest: f64,
         distance: f64,
-        mut interior: Interior,
+        interior: &Interior,
         counts: &mut Counts,
     ) -> Rgb {
-        let Snapshot { geometry, materials, .. } = self.snapshot;
-        let is_clear = |object: u32| materials.clear[object as usize];
+        let materials = &self.snapshot.materials;
+        let mut interior = interior.clone();
         let mut cost = Cost::default();
         let mut visible = Rgb::ONE;
         let end = ray.at(distance);
         let toward = ray.direction;
         while visible != Rgb::ZERO {
-            let met = geometry.nearest_of(is_clear, &ray, rest, self.methods, &mut cost);
+            let met = clear.nearest(&ray, rest, self.methods, &mut cost);
             let met = met.filter(|met| met.hit.t < rest);
             let length = ray.direction.length();
             if !materials.media.is_empty() {
@@ -225,7 +220,7 @@ impl<'a> Point<'a> {
                 visible *= interior::transmittance(interior.medium(materials), t * length);
             }
             let Some(met) = met else { break };
-            let surface = geometry.surface_without_uv(&met, &ray, self.methods);
+            let surface = clear.surface_without_uv(&met, &ray, self.methods);
             visible *= self.passes(met.object, &surface, &ray, &mut interior);
             ray.origin = surface.departure(ray.direction, met.hit.t * length);
             if rest.is_finite() {
