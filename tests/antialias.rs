@@ -1,7 +1,7 @@
 //! Rays in a pixel: the ways of placing them, against each other and against closed forms.
 
 use snell::prelude::*;
-use snell::systems::render::pixel;
+use snell::systems::render::{Observer, pixel, pixel_observed};
 use snell::{Counts, components::math};
 use std::sync::Arc;
 
@@ -131,19 +131,34 @@ fn edges_along_the_corners_of_pixels_are_exact() {
     let halved = drawn(&of_the_wall(adaptive, checkers(16.0)));
     assert_eq!(rms(&halved, exact), 0.0);
     let within = Settings { error: 0.01, subdivisions: 6, ..square(32, Antialias::Adaptive) };
-    assert_eq!(rms(&drawn(&of_the_wall(within, checkers(16.0))), exact), 0.0);
+    // Here corners, which go either way, are taken off: what is left is within the error.
+    assert!(rms(&drawn(&of_the_wall(within, checkers(16.0))), exact) < 0.005);
+    // What that costs: less than six rays to a pixel in place of four.
+    assert!(halved.counts.primary < 6 * 32 * 32, "{}", halved.counts.primary);
+}
+
+/// Whether the middle of a quarter stands for it, as it does if its corners are not alike; they are if all light is that
+/// of corners, which come first or have a smaller share.
+struct Last(bool);
+
+impl Observer for Last {
+    fn shared(&mut self, sample: u32, share: f64) {
+        self.0 |= sample >= 4 && share == 0.25;
+    }
 }
 
 #[test]
 fn thin_lines_are_missed_as_often_as_geometry_says() {
     // Lines through one pixel at random angles and distances; the shares follow from the places of the rays alone.
-    let missed = |antialias, grid: u32, width: f64| {
+    let missed = |antialias, grid: u32, width: f64, pixels: u32| {
         let mut random = 1u64;
         let mut next = || {
             random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
             (random >> 11) as f64 / (1u64 << 53) as f64
         };
-        let settings = Settings { grid, ..square(1, antialias) };
+        // The pixel in the middle of a picture of 1 or 3 by 3: with or without others beside it.
+        let middle = pixels / 2;
+        let settings = Settings { grid, subdivisions: 1, ..square(pixels, antialias) };
         let upright = of_the_wall(settings, strip(0.0, 0.0, width));
         let (mut count, mut missed) = (0, 0);
         while count < 1000 {
@@ -158,21 +173,29 @@ fn thin_lines_are_missed_as_often_as_geometry_says() {
             snapshot.view.eye = DVec3::new(offset, 0.0, 1e6);
             (snapshot.view.right, snapshot.view.up) = (DVec3::new(cos, sin, 0.0), DVec3::new(-sin, cos, 0.0));
             let mut counts = Counts::default();
-            let light = pixel(&snapshot, 0, 0, &Methods::default(), &mut counts);
-            missed +=
-                u32::from(if antialias == Antialias::Adaptive { counts.refined == 0 } else { light == Rgb::ZERO });
+            let scale = f64::from(pixels);
+            (snapshot.view.right, snapshot.view.up) = (snapshot.view.right * scale, snapshot.view.up * scale);
+            let mut last = Last(false);
+            let light = pixel_observed(&snapshot, middle, middle, &Methods::default(), &mut counts, &mut last);
+            let seen = match (antialias, pixels) {
+                (Antialias::Adaptive, 1) => counts.refined > 0,
+                (Antialias::Adaptive, _) => last.0,
+                _ => light != Rgb::ZERO,
+            };
+            missed += u32::from(!seen);
         }
         f64::from(missed) / f64::from(count)
     };
-    for (width, four, corners, sixteen) in
-        [(0.5, 0.110, 0.165, 0.0), (0.25, 0.383, 0.501, 0.056), (0.1, 0.712, 0.785, 0.265)]
+    for (width, four, corners, with_others, sixteen) in
+        [(0.5, 0.110, 0.165, 0.052, 0.0), (0.25, 0.383, 0.501, 0.293, 0.056), (0.1, 0.712, 0.785, 0.724, 0.265)]
     {
         let found = [
-            missed(Antialias::Four, 2, width),
-            missed(Antialias::Adaptive, 2, width),
-            missed(Antialias::Grid, 4, width),
+            missed(Antialias::Four, 2, width, 1),
+            missed(Antialias::Adaptive, 2, width, 1),
+            missed(Antialias::Adaptive, 2, width, 3),
+            missed(Antialias::Grid, 4, width, 1),
         ];
-        let expected = [four, corners, sixteen];
+        let expected = [four, corners, with_others, sixteen];
         assert!(
             found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.05),
             "{width}: {found:?}, expected {expected:?}"

@@ -38,8 +38,8 @@ pub struct Settings {
     /// How much a channel of a pixel may differ from what the same scene gives without cutting rays and with ever more
     /// samples; 0: no such promise is made.
     ///
-    /// One half is for rays that are not followed: it is never exceeded. The other is for the samples of lights with an
-    /// area and of [`Antialias::Adaptive`], and is kept by two standard errors.
+    /// One half is for rays that are not followed: it is never exceeded. What they do not use up is for the samples of lights
+    /// with an area and of [`Antialias::Adaptive`], and is kept by two standard errors.
     pub error: f64,
     /// What the numbers of colours in files mean, and what is written into pictures.
     pub encoding: Encoding,
@@ -59,7 +59,7 @@ choice! {
         Four,
         /// Rays in rows and columns; their mean counts.
         Grid,
-        /// Rays through the corners of the pixel, and more where these differ (Whitted 1980).
+        /// Rays through the corners of the pixel, and more where these, or those of a pixel beside it, differ (Whitted 1980).
         Adaptive,
     }
 }

@@ -68,9 +68,9 @@ pub(super) fn draw(renderer: &mut Renderer, how: &Drawing, console: &mut Console
     let ((frame, snapshot, told), trace) = timed(|| match how.time {
         None => (pool.run(|| render(&snapshot, &options)), snapshot, None),
         Some(time) => {
-            let end = start + Duration::from_secs_f64(time);
+            let (clock, end) = (|| start.elapsed(), Duration::from_secs_f64(time));
             let told = |so_far: crate::Progress| progress.set(so_far.done);
-            let timed = pool.run(|| render_until(&snapshot, end, region, &options.stop, &told));
+            let timed = pool.run(|| render_until(&snapshot, &clock, end, region, &options.stop, &told));
             let words = told_of_time(time, start.elapsed().as_secs_f64(), &timed);
             // As if the scene had asked for what was reached.
             (timed.frame, Arc::new(timed.snapshot), Some(words))

@@ -63,14 +63,24 @@ impl Scene {
     /// # Errors
     /// What keeps the scene from being rendered.
     pub fn with(&mut self, effort: Effort, change: impl FnOnce(&mut World)) -> Result<Arc<Snapshot>, Hindrance> {
+        self.at_its_size(|world| {
+            let small = &mut *world.resource_mut::<Settings>();
+            let height = f64::from(effort.width) * f64::from(small.height) / f64::from(small.width);
+            (small.width, small.height) = (effort.width, height.round().max(1.0) as u32);
+            change(world);
+        })
+    }
+
+    /// The scene as large as it says, with a change; the scene itself stays as it is.
+    ///
+    /// # Errors
+    /// What keeps the scene from being rendered.
+    pub fn at_its_size(&mut self, change: impl FnOnce(&mut World)) -> Result<Arc<Snapshot>, Hindrance> {
         let world = &mut self.renderer.world;
         let settings = world.resource::<Settings>().clone();
         let lights = saved::<DiskLight>(world);
         let images = saved::<ImageTexture>(world);
         let checkers = saved::<Checker>(world);
-        let small = &mut *world.resource_mut::<Settings>();
-        let height = f64::from(effort.width) * f64::from(small.height) / f64::from(small.width);
-        (small.width, small.height) = (effort.width, height.round().max(1.0) as u32);
         change(world);
         let snapshot = self.renderer.snapshot();
         let world = &mut self.renderer.world;

@@ -16,7 +16,10 @@ use snell_components::{color::Rgb, settings::Settings};
 /// of the visible and Fresnel's shares are at most 1, so by induction no ray brings more than `B`. Rounding is within
 /// the margin that is added.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ceiling(Box<[Rgb]>);
+pub struct Ceiling {
+    levels: Box<[Rgb]>,
+    rays_go_on: bool,
+}
 
 /// Covers the rounding of shading and of the sums here: per factor an ulp or two, for a highlight its exponent of at
 /// most 1e6 times as much.
@@ -53,19 +56,28 @@ impl Ceiling {
         if let Some(level) = levels.last_mut() {
             *level = last;
         }
-        levels.iter().all(|level| level.max_element() < 1e100).then(|| Self(levels.into()))
+        levels
+            .iter()
+            .all(|level| level.max_element() < 1e100)
+            .then(|| Self { levels: levels.into(), rays_go_on: terms.iter().any(|(_, shares)| *shares != Rgb::ZERO) })
     }
 
     /// The same for all rays.
     #[cfg(test)]
     pub(crate) fn flat(most: Rgb) -> Self {
-        Self(Box::new([most]))
+        Self { levels: Box::new([most]), rays_go_on: true }
+    }
+
+    /// Whether anything mirrors or lets light through, so that there may be rays to cut.
+    #[must_use]
+    pub fn rays_go_on(&self) -> bool {
+        self.rays_go_on
     }
 
     /// The most that a ray can bring behind which so many more may follow one another.
     #[must_use]
     pub fn of_ray(&self, followers: u32) -> Rgb {
-        self.0[(followers as usize).min(self.0.len() - 1)]
+        self.levels[(followers as usize).min(self.levels.len() - 1)]
     }
 }
 

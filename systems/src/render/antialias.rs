@@ -2,11 +2,13 @@
 
 use super::{
     Counts, Key,
+    budget::variance_for_pixels,
     footprint::{Beside, Neighbours},
     observe::Observer,
-    trace::light_along,
+    trace::{Brought, light_along},
 };
 use crate::snapshot::Snapshot;
+use glam::DVec2;
 use snell_components::{
     color::Rgb,
     method::Methods,
@@ -24,6 +26,8 @@ pub(super) struct Pixels<'a, O> {
     pub(super) counts: &'a mut Counts,
     observer: &'a mut O,
     corners: Corners,
+    /// Whether things change between the corners of a pixel, by row and column.
+    changing: BTreeMap<(u32, u32), bool>,
     /// Rays traced so far.
     traced: u32,
 }
@@ -34,6 +38,8 @@ pub(super) struct Seen {
     light: Rgb,
     /// The object it meets first.
     object: Option<u32>,
+    /// The most that what was cut behind it could have added.
+    cut_bound: f64,
     /// Which ray it was: the first, second, …
     number: u32,
 }
@@ -48,7 +54,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
         counts: &'a mut Counts,
         observer: &'a mut O,
     ) -> Self {
-        Self { snapshot, methods, counts, observer, corners: Corners::default(), traced: 0 }
+        Self { snapshot, methods, counts, observer, corners: Corners::default(), changing: BTreeMap::new(), traced: 0 }
     }
 
     /// The linear light of a pixel: a function of snapshot and coordinates.
@@ -60,16 +66,15 @@ impl<'a, O: Observer> Pixels<'a, O> {
             Antialias::Grid => self.grid(settings.grid, x, y),
             Antialias::Adaptive => {
                 self.corners.begin(x, y);
-                let pixel = Part { x: x * STEPS, y: y * STEPS, level: 0 };
-                let before = self.traced;
+                self.changing.retain(|(row, _), _| row + 1 >= y);
+                let pixel = Part::pixel(x, y);
                 let mut light = Rgb::ZERO;
-                if settings.error > 0.0 {
-                    self.add_within_error(settings, pixel, &mut light);
+                let halved = if settings.error > 0.0 {
+                    self.add_within_error(settings, pixel, &mut light)
                 } else {
-                    self.add_halved(settings, pixel, &mut light);
-                }
-                // The corners and the middle are at most five rays.
-                self.counts.refined += u64::from(self.traced - before > 5);
+                    self.add_halved(settings, pixel, &mut light)
+                };
+                self.counts.refined += u64::from(halved);
                 light
             }
         }
@@ -99,13 +104,13 @@ impl<'a, O: Observer> Pixels<'a, O> {
         self.observer.sample();
         let number = self.traced;
         self.traced += 1;
-        let (light, object) = if snapshot.materials.any_filtered {
+        let Brought { light, object, cut_bound } = if snapshot.materials.any_filtered {
             let beside = Neighbours::start(snapshot, x, y, spacing);
             light_along(snapshot, ray, beside, key, self.methods, self.counts, self.observer)
         } else {
             light_along(snapshot, ray, (), key, self.methods, self.counts, self.observer)
         };
-        Seen { light, object, number }
+        Seen { light, object, cut_bound, number }
     }
 
     fn add(&mut self, seen: &Seen, share: f64, sum: &mut Rgb) {
@@ -113,38 +118,79 @@ impl<'a, O: Observer> Pixels<'a, O> {
         self.observer.shared(seen.number, share);
     }
 
-    /// Adds the light of a part of a pixel (Whitted: An Improved Illumination Model for Shaded Display, 1980).
+    /// Adds the light of a part of a pixel (Whitted: An Improved Illumination Model for Shaded Display, 1980); tells
+    /// whether it was halved.
     ///
     /// A part whose corners are alike, and show the same object, has their mean; one whose corners are not is halved
-    /// both ways. A part that is not halved any further has the light of its middle and not its corners' mean: the mean
-    /// would blur every edge that runs along corners, where all pixels beside it would be off by the same.
-    fn add_halved(&mut self, settings: &Settings, part: Part, sum: &mut Rgb) {
+    /// both ways, as is a pixel beside one whose corners are not. A part that is not halved any further has the light of
+    /// its middle and not its corners' mean: the mean would blur every edge that runs along corners, where all pixels
+    /// beside it would be off by the same.
+    fn add_halved(&mut self, settings: &Settings, part: Part, sum: &mut Rgb) -> bool {
         let corners = self.corners(part);
-        if corners.same_object() && corners.contrast() <= settings.contrast {
+        let alike = corners.are_alike(settings.contrast);
+        let last = part.level == settings.subdivisions;
+        if alike && (last || part.level > 0 || !self.changes_beside(part, settings.contrast)) {
             self.add_mean(&corners, part.area(), sum);
-        } else if part.level == settings.subdivisions {
+            false
+        } else if last {
             let [x, y] = part.middle();
             let seen = self.at(x, y, part.size());
             self.add(&seen, part.area(), sum);
+            false
         } else {
-            part.quarters().into_iter().for_each(|part| self.add_halved(settings, part, sum));
+            for part in part.quarters() {
+                self.add_halved(settings, part, sum);
+            }
+            true
         }
     }
 
-    /// Adds the light of a pixel, halved where that tells most until the error of the setting is kept.
+    /// Whether things change between the corners of a pixel beside this one: what is thinner than a pixel may miss the
+    /// corners here and not those there.
+    fn changes_beside(&mut self, pixel: Part, contrast: f64) -> bool {
+        let Settings { width, height, .. } = self.snapshot.settings;
+        let (x, y) = (pixel.x / STEPS, pixel.y / STEPS);
+        let around = |at: u32, len: u32| at.saturating_sub(1)..(at + 2).min(len);
+        around(y, height).any(|y| around(x, width).any(|x| self.changes_in(x, y, contrast)))
+    }
+
+    fn changes_in(&mut self, x: u32, y: u32, contrast: f64) -> bool {
+        if let Some(changing) = self.changing.get(&(y, x)) {
+            return *changing;
+        }
+        let changing = !self.corners(Part::pixel(x, y)).are_alike(contrast);
+        self.changing.insert((y, x), changing);
+        changing
+    }
+
+    /// Adds the light of a pixel, halved where that tells most until the error of the setting is kept; tells whether it
+    /// was halved.
     ///
     /// A part with an edge in it has the light of a ray through a random point: the errors of parts are independent, so
-    /// their variances add up. The pixel is done when two standard errors are below the share of the error that is for
-    /// this.
-    fn add_within_error(&mut self, settings: &Settings, pixel: Part, sum: &mut Rgb) {
-        // Half of the error, as two standard errors, and of their square one half: the other is for lights.
-        let allowed = settings.error * settings.error / 32.0;
-        let first = self.measured(pixel, settings.error, 0);
-        let mut variance = first.variance();
+    /// their variances add up. The pixel is done when two standard errors are within what the error leaves.
+    fn add_within_error(&mut self, settings: &Settings, pixel: Part, sum: &mut Rgb) -> bool {
+        let error = settings.error;
+        let first = self.measured(pixel, error, 0);
         let mut measured = 1;
+        let (mut contrast, mut cut_bound) = (first.contrast, first.cut_bound);
+        let (mut variance, mut edges) = (first.variance, first.edge_area());
         let mut finest = vec![];
         let mut parts = BinaryHeap::from([first]);
-        while variance > allowed {
+        let mut doubted = false;
+        loop {
+            let count = parts.len() + finest.len();
+            let beside = count == 1 && edges == 0.0 && settings.subdivisions > 0;
+            let beside = beside && self.changes_beside(pixel, BESIDE * error);
+            let tangled = edges > TANGLED && count >= 16;
+            if tangled && !doubted {
+                doubted = true;
+                let doubt = |part: Measured| part.doubted(contrast, error);
+                parts = parts.into_vec().into_iter().map(doubt).collect();
+                variance = parts.iter().map(|part| part.variance).sum();
+            }
+            if !beside && variance <= variance_for_pixels(self.snapshot, cut_bound) {
+                break;
+            }
             let Some(widest) = parts.pop() else {
                 self.counts.unresolved += 1;
                 break;
@@ -153,28 +199,36 @@ impl<'a, O: Observer> Pixels<'a, O> {
                 finest.push(widest);
                 continue;
             }
-            variance -= widest.variance();
+            variance -= widest.variance;
+            edges -= widest.edge_area();
             for quarter in widest.part.quarters() {
-                let quarter = self.measured(quarter, settings.error, measured);
+                let mut quarter = self.measured(quarter, error, measured);
+                if tangled {
+                    quarter = quarter.doubted(contrast, error);
+                }
                 measured += 1;
-                variance += quarter.variance();
+                contrast = contrast.max(quarter.contrast);
+                cut_bound = cut_bound.max(quarter.cut_bound);
+                variance += quarter.variance;
+                edges += quarter.edge_area();
                 parts.push(quarter);
             }
         }
-        for Measured { part, look, .. } in finest.into_iter().chain(parts.into_sorted_vec()) {
-            match look {
-                Look::Plane(corners) => self.add_mean(&corners, part.area(), sum),
-                Look::Curved(corners, middle) => {
-                    // Exact for polynomials of the second degree.
-                    self.add_mean(&corners, part.area() / 3.0, sum);
-                    self.add(&middle, part.area() * 2.0 / 3.0, sum);
-                }
-                Look::Edge => {
-                    let seen = self.somewhere_in(part);
-                    self.add(&seen, part.area(), sum);
-                }
+        finest.extend(parts.into_sorted_vec());
+        let points: Vec<Option<InPart>> = finest.iter().map(|measured| self.point_in(measured)).collect();
+        let mut terms = vec![];
+        for sharp in [true, false] {
+            terms.clear();
+            for (measured, point) in finest.iter().zip(&points) {
+                measured.terms(point.as_ref(), sharp, &mut terms);
+            }
+            // Differences may lead below zero, where no light is.
+            if terms.iter().map(|(seen, share)| seen.light * *share).sum::<Rgb>().min_element() >= 0.0 {
+                break;
             }
         }
+        terms.iter().for_each(|(seen, share)| self.add(seen, *share, sum));
+        finest.len() > 1
     }
 
     fn add_mean(&mut self, corners: &Four, area: f64, sum: &mut Rgb) {
@@ -185,28 +239,37 @@ impl<'a, O: Observer> Pixels<'a, O> {
     fn measured(&mut self, part: Part, error: f64, number: u32) -> Measured {
         let corners = self.corners(part);
         let contrast = corners.contrast();
-        if corners.same_object() && contrast <= LITTLE * error {
-            return Measured { part, spread: contrast * part.area(), look: Look::Plane(corners), number };
+        let cut_bound = corners.0.iter().map(|corner| corner.cut_bound).fold(0.0, f64::max);
+        let measured = |off: f64, share: f64, look| {
+            let spread = off * part.area();
+            Measured { part, variance: spread * spread * share, contrast, cut_bound, look, number }
+        };
+        if !corners.same_object() {
+            // Where objects of the same light meet there may be more to see than the corners show.
+            return measured(contrast.max(error), EDGE, Look::Edge(corners));
+        }
+        if contrast <= LITTLE * error {
+            return measured(contrast, UNKNOWN, Look::Plane(corners));
         }
         // If the part is halved its middle is a corner of all quarters.
         let [x, y] = part.middle();
         let middle = self.corner(x, y);
         let off = (middle.light - corners.mean()).abs().max_element();
-        if corners.same_object() && middle.object == corners.0[0].object && off <= contrast * BENT {
-            return Measured { part, spread: off * part.area(), look: Look::Curved(corners, middle), number };
+        if middle.object == corners.0[0].object && off <= contrast * BENT {
+            return measured(off, UNKNOWN, Look::Curved(corners, middle));
         }
-        // Where objects of the same light meet there may be more to see than the corners show.
-        let contrast = contrast.max(off).max(error);
-        Measured { part, spread: contrast * part.area(), look: Look::Edge, number }
+        measured(contrast.max(off).max(error), UNKNOWN, Look::Edge(corners))
     }
 
-    /// What a ray through a random point of a part brings.
-    fn somewhere_in(&mut self, part: Part) -> Seen {
+    /// A random point in a part with an edge.
+    fn point_in(&mut self, measured: &Measured) -> Option<InPart> {
+        let Measured { part, look: Look::Edge(_), .. } = measured else { return None };
         let [x, y] = part.middle();
         let key = key(x, y);
         let (at, size) = (key.child(0).sample(0), f64::from(part.size()));
         let point = |corner: u32, share: f64| (f64::from(corner) + size * share) / f64::from(STEPS);
-        self.through(point(part.x, at.x), point(part.y, at.y), size / f64::from(STEPS), key)
+        let seen = self.through(point(part.x, at.x), point(part.y, at.y), size / f64::from(STEPS), key);
+        Some(InPart { at, seen })
     }
 
     fn corners(&mut self, part: Part) -> Four {
@@ -239,6 +302,21 @@ fn key(x: u32, y: u32) -> Key {
 /// Contrast that is not looked into, as a share of the error.
 const LITTLE: f64 = 0.25;
 
+/// Contrast of a pixel that has those beside it halved, as a multiple of the error: what a pixel may miss of it is less
+/// than the half that two corners would show.
+const BESIDE: f64 = 4.0;
+
+/// Share of a pixel in parts with edges above which, at sixteen parts, it is taken to change everywhere: one straight edge
+/// passes through 7 of 16.
+const TANGLED: f64 = 0.5;
+
+/// Mean square by which a random point in a part with an edge is off, as a share of the contrast squared, if what the
+/// corners show is taken off: over straight edges anywhere, 0.071.
+const EDGE: f64 = 1.0 / 12.0;
+
+/// The same if the corners do not show it: the mean of `p·(1 − p)`.
+const UNKNOWN: f64 = 1.0 / 6.0;
+
 /// How far the middle may lie from the plane through the corners, as a share of their contrast, for light without an
 /// edge: an edge puts it off by a quarter or more.
 const BENT: f64 = 0.125;
@@ -252,6 +330,10 @@ struct Part {
 }
 
 impl Part {
+    fn pixel(x: u32, y: u32) -> Self {
+        Self { x: x * STEPS, y: y * STEPS, level: 0 }
+    }
+
     fn size(self) -> u32 {
         STEPS >> self.level
     }
@@ -286,6 +368,11 @@ impl Four {
         self.0.iter().all(|corner| corner.object == self.0[0].object)
     }
 
+    /// Whether they show one object and differ by no more than this.
+    fn are_alike(&self, contrast: f64) -> bool {
+        self.same_object() && self.contrast() <= contrast
+    }
+
     fn mean(&self) -> Rgb {
         self.0.iter().fold(Rgb::ZERO, |sum, corner| sum + corner.light) * 0.25
     }
@@ -301,10 +388,14 @@ impl Four {
 /// A part, and how much of the pixel's light is open in it.
 struct Measured {
     part: Part,
-    /// Share of the pixel's light that the part may be off by.
-    spread: f64,
+    /// Mean square by which the pixel's light may be off through this part.
+    variance: f64,
+    /// Of its corners.
+    contrast: f64,
+    /// The most that what was cut behind the corners could have added.
+    cut_bound: f64,
     look: Look,
-    /// Decides between equal spreads.
+    /// Decides between equal variances.
     number: u32,
 }
 
@@ -315,19 +406,66 @@ enum Look {
     /// Smoothly, with the middle near the plane through the corners.
     Curved(Four, Seen),
     /// Anyhow.
-    Edge,
+    Edge(Four),
+}
+
+/// A random point in a part.
+struct InPart {
+    /// Right and down in the part, 0 to 1.
+    at: DVec2,
+    seen: Seen,
 }
 
 impl Measured {
-    /// Of the light of one ray through a random point, the edge being anywhere: `p·(1 − p)` is one sixth on average.
-    fn variance(&self) -> f64 {
-        self.spread * self.spread / 6.0
+    /// Its area if there is an edge in it.
+    fn edge_area(&self) -> f64 {
+        if matches!(self.look, Look::Edge(_)) { self.part.area() } else { 0.0 }
+    }
+
+    /// The part in a pixel that changes nearly everywhere: that its corners are alike may be chance, and counts as an edge
+    /// where, with the contrast of others, it could matter.
+    fn doubted(mut self, contrast: f64, error: f64) -> Self {
+        let spread = contrast * self.part.area();
+        if spread > error {
+            self.variance = self.variance.max(spread * spread * EDGE);
+        }
+        self
+    }
+
+    /// What the light of the part is made of; `sharp` takes the point as the difference from what the corners show at its
+    /// place, which is nearer to the truth than the point alone.
+    fn terms(&self, point: Option<&InPart>, sharp: bool, terms: &mut Vec<(Seen, f64)>) {
+        let area = self.part.area();
+        let mut mean = |corners: &Four, share: f64| terms.extend(corners.0.map(|corner| (corner, 0.25 * share)));
+        match (&self.look, point) {
+            (Look::Plane(corners), _) => mean(corners, area),
+            (Look::Curved(corners, middle), _) => {
+                // Exact for polynomials of the second degree.
+                mean(corners, area / 3.0);
+                terms.push((*middle, area * 2.0 / 3.0));
+            }
+            (Look::Edge(corners), Some(InPart { at, seen })) => {
+                if sharp && corners.contrast().is_finite() {
+                    let across = [1.0 - at.x, at.x];
+                    let shares = [(1.0 - at.y), at.y].map(|down| across.map(|across| 0.25 - across * down));
+                    terms.extend(
+                        corners
+                            .0
+                            .into_iter()
+                            .zip(shares.into_iter().flatten())
+                            .map(|(corner, share)| (corner, area * share)),
+                    );
+                }
+                terms.push((*seen, area));
+            }
+            (Look::Edge(_), None) => {}
+        }
     }
 }
 
 impl Ord for Measured {
     fn cmp(&self, other: &Self) -> core::cmp::Ordering {
-        self.spread.total_cmp(&other.spread).then(other.number.cmp(&self.number))
+        self.variance.total_cmp(&other.variance).then(other.number.cmp(&self.number))
     }
 }
 
@@ -345,16 +483,18 @@ impl PartialEq for Measured {
 
 impl Eq for Measured {}
 
-/// What rays through corners brought, as long as another pixel of the row or the next row may want it.
+/// What rays through corners brought, as long as another pixel of the row or the rows below may want it.
 #[derive(Default)]
 struct Corners {
     /// The pixel at hand.
     pixel: Option<(u32, u32)>,
-    /// On the upper edge of the row, by `x`.
+    /// Of pixels, by `y` and `x`: wanted by all pixels up to the one after the next.
+    of_pixels: BTreeMap<(u32, u32), Seen>,
+    /// Of parts, on the upper edge of the row, by `x`.
     upper: BTreeMap<u32, Seen>,
-    /// On the lower edge of the row, by `x`.
+    /// Of parts, on the lower edge of the row, by `x`.
     lower: BTreeMap<u32, Seen>,
-    /// Between them, in this pixel and on its edge.
+    /// Of parts, between them, in this pixel and on its edge.
     inside: BTreeMap<(u32, u32), Seen>,
 }
 
@@ -366,39 +506,44 @@ impl Corners {
             let next_row = self.pixel.is_some_and(|(_, row)| row + 1 == y);
             let lower = core::mem::take(&mut self.lower);
             self.upper = if next_row { lower } else { BTreeMap::new() };
+            self.of_pixels.retain(|(at, _), _| *at + STEPS >= y * STEPS);
         }
         self.inside.retain(|(at, _), _| same_row && *at == x * STEPS);
         self.pixel = Some((x, y));
     }
 
     fn get(&self, x: u32, y: u32) -> Option<Seen> {
-        match self.edge(y) {
-            Edge::Upper => self.upper.get(&x),
-            Edge::Lower => self.lower.get(&x),
-            Edge::Neither => self.inside.get(&(x, y)),
+        match self.place(x, y) {
+            Place::OfPixel => self.of_pixels.get(&(y, x)),
+            Place::Upper => self.upper.get(&x),
+            Place::Lower => self.lower.get(&x),
+            Place::Inside => self.inside.get(&(x, y)),
         }
         .copied()
     }
 
     fn keep(&mut self, x: u32, y: u32, seen: Seen) {
-        match self.edge(y) {
-            Edge::Upper => self.upper.insert(x, seen),
-            Edge::Lower => self.lower.insert(x, seen),
-            Edge::Neither => self.inside.insert((x, y), seen),
+        match self.place(x, y) {
+            Place::OfPixel => self.of_pixels.insert((y, x), seen),
+            Place::Upper => self.upper.insert(x, seen),
+            Place::Lower => self.lower.insert(x, seen),
+            Place::Inside => self.inside.insert((x, y), seen),
         };
     }
 
-    fn edge(&self, y: u32) -> Edge {
+    fn place(&self, x: u32, y: u32) -> Place {
         match self.pixel {
-            Some((_, row)) if y == row * STEPS => Edge::Upper,
-            Some((_, row)) if y == (row + 1) * STEPS => Edge::Lower,
-            _ => Edge::Neither,
+            _ if (x | y).is_multiple_of(STEPS) => Place::OfPixel,
+            Some((_, row)) if y == row * STEPS => Place::Upper,
+            Some((_, row)) if y == (row + 1) * STEPS => Place::Lower,
+            _ => Place::Inside,
         }
     }
 }
 
-enum Edge {
+enum Place {
+    OfPixel,
     Upper,
     Lower,
-    Neither,
+    Inside,
 }

@@ -1,6 +1,5 @@
 //! Which rays are not followed, and what that may cost.
 
-use super::Counts;
 use crate::{extract::Ceiling, snapshot::Snapshot};
 use snell_components::color::Rgb;
 
@@ -58,29 +57,38 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// Notes what the rays dropped could have added.
-    pub(super) fn tell(&self, counts: &mut Counts) {
-        if let Self::Bound { spent, .. } = self {
-            let spent = spent.max_element();
-            if spent > counts.cut_bound {
-                counts.cut_bound = spent;
-            }
+    /// The most that the rays dropped could have added to a channel; 0 without an error.
+    pub(super) fn bound(&self) -> f64 {
+        match self {
+            Self::Bound { spent, .. } => spent.max_element(),
+            Self::Weight(_) | Self::Never => 0.0,
         }
     }
+}
+
+/// The variance of a pixel's light that its sampling may leave, if what was cut behind its rays could have added so much
+/// at most: two standard errors are what is left of the error. Where lights are sampled as well, half of it is theirs.
+pub(super) fn variance_for_pixels(snapshot: &Snapshot, cut_bound: f64) -> f64 {
+    let sigma = 0.5 * (snapshot.settings.error - cut_bound);
+    sigma * sigma * if sampled_lamps(snapshot) > 0 { 0.5 } else { 1.0 }
 }
 
 /// The standard error at which the sampling of a lamp ends, for light that is multiplied by `weight` in the pixel;
 /// none if no error is promised.
 ///
-/// A quarter of the error for the pixel, since two standard errors are half of it. The weights of the points of a tree
-/// add up to one or less, so their variances may go by the inverse of the weight: bright reflections of a penumbra are
-/// sampled more finely than faint ones.
+/// Two standard errors, and what may be cut, are the error for the pixel; a pixel is the mean of two rays at the least,
+/// so that half of its variance is left for the places of rays. The weights of the points of a tree add up to one or
+/// less, so their variances may go by the inverse of the weight: bright reflections of a penumbra are sampled more
+/// finely than faint ones.
 pub(super) fn lamp_error(snapshot: &Snapshot, weight: Rgb) -> Option<f64> {
     let error = snapshot.settings.error;
-    (error > 0.0).then(|| {
-        let lamps = snapshot.lights.sampling.iter().flatten().count();
-        0.25 * error / (lamps as f64 * weight.max_element()).sqrt()
-    })
+    let for_cuts = snapshot.ceiling.as_ref().filter(|ceiling| ceiling.rays_go_on()).map_or(0.0, |_| SHARE);
+    (error > 0.0)
+        .then(|| 0.5 * (1.0 - for_cuts) * error / (sampled_lamps(snapshot) as f64 * weight.max_element()).sqrt())
+}
+
+fn sampled_lamps(snapshot: &Snapshot) -> usize {
+    snapshot.lights.sampling.iter().flatten().count()
 }
 
 #[cfg(test)]
@@ -101,9 +109,7 @@ mod tests {
             }
         }
         assert!(dropped >= 10 && sum.max_element() <= 0.01 && sum.max_element() > 0.009, "{dropped}: {sum}");
-        let mut counts = Counts::default();
-        cut.tell(&mut counts);
-        assert_eq!(counts.cut_bound, sum.max_element());
+        assert_eq!(cut.bound(), sum.max_element());
     }
 
     #[test]

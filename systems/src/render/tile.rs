@@ -18,7 +18,7 @@ impl Stop {
         Self::default()
     }
 
-    /// Asks the render to stop; it does so within a row of pixels.
+    /// Asks the render to stop; it does so within a pixel, and leaves the row undrawn.
     pub fn stop(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -156,11 +156,13 @@ fn draw(snapshot: &Snapshot, region: Region, options: &Options<'_>) -> (Tile, Co
     let observer = &mut ();
     let mut drawing = Pixels::new(snapshot, &options.methods, &mut counts, observer);
     let mut rows = 0;
-    for (y, row) in pixels.chunks_mut(region.width as usize).enumerate() {
-        if options.stop.is_stopped() {
-            break;
-        }
+    'rows: for (y, row) in pixels.chunks_mut(region.width as usize).enumerate() {
         for (x, out) in row.iter_mut().enumerate() {
+            // A pixel may take thousands of rays, so that a row would be long to wait for.
+            if options.stop.is_stopped() {
+                row.fill([0.0; 3]);
+                break 'rows;
+            }
             let light = drawing.light(region.x + x as u32, region.y + y as u32).as_vec3();
             if light.is_finite() {
                 *out = light.to_array();

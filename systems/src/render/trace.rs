@@ -58,7 +58,16 @@ struct Pending<B> {
     key: Key,
 }
 
-/// The light that comes back along a ray, and the object it meets first.
+/// What comes back along a ray.
+pub(super) struct Brought {
+    pub light: Rgb,
+    /// The object it meets first.
+    pub object: Option<u32>,
+    /// The most that what was cut could have added to a channel; 0 without an error.
+    pub cut_bound: f64,
+}
+
+/// The light that comes back along a ray.
 ///
 /// The tree of rays is walked with a stack of its own, the mirrored branch of a surface before the transmitted one, and
 /// every contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
@@ -70,7 +79,7 @@ pub(super) fn light_along<B: Beside, O: Observer>(
     methods: &Methods,
     counts: &mut Counts,
     observer: &mut O,
-) -> (Rgb, Option<u32>) {
+) -> Brought {
     let Snapshot { settings, materials, .. } = snapshot;
     let mut sum = Rgb::ZERO;
     let mut first = None;
@@ -166,8 +175,9 @@ pub(super) fn light_along<B: Beside, O: Observer>(
             }
         }
     }
-    cut.tell(counts);
-    (sum, first)
+    let cut_bound = cut.bound();
+    counts.cut_bound = counts.cut_bound.max(cut_bound);
+    Brought { light: sum, object: first, cut_bound }
 }
 
 /// What a ray beyond the depth limit is taken to bring: grey, with the mean brightness of the background's components.
