@@ -53,8 +53,11 @@ pub mod asset;
 
 pub mod describe;
 
-#[expect(unsafe_code, reason = "intrinsics and an uninitialised stack; nowhere else")]
+#[expect(unsafe_code, reason = "intrinsics and an uninitialised stack")]
 pub mod lanes;
+
+#[expect(unsafe_code, reason = "advice to the system about memory")]
+mod pages;
 
 pub mod bvh;
 

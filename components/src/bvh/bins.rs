@@ -154,7 +154,10 @@ impl Scale {
 const WHOLE: f32 = (1u32 << 23) as f32;
 
 /// The axis and the last bin on the left of the split with the least expected cost; none if all centres share a bin.
-pub(super) fn cheapest(bins: &Bins, count: usize) -> Option<(usize, usize)> {
+///
+/// Things are tested in blocks of `block` together, so a block that is not full costs as much as a full one.
+pub(super) fn cheapest(bins: &Bins, count: usize, block: u32) -> Option<(usize, usize)> {
+    let blocks = |things: u32| f64::from(things.div_ceil(block));
     let mut best: Option<(f64, usize, usize)> = None;
     for axis in 0..3 {
         let (boxes, counts) = (&bins.boxes[axis], &bins.counts[axis]);
@@ -164,13 +167,13 @@ pub(super) fn cheapest(bins: &Bins, count: usize) -> Option<(usize, usize)> {
             (bounds, sum) = (bounds.union(&boxes[plane]), sum + counts[plane]);
             // An empty side stays not-a-number, which is less than nothing.
             if sum > 0 {
-                right_costs[plane - 1] = bounds.half_area() * f64::from(sum);
+                right_costs[plane - 1] = bounds.half_area() * blocks(sum);
             }
         }
         let (mut bounds, mut sum) = (Box4::EMPTY, 0);
         for plane in 0..count - 1 {
             (bounds, sum) = (bounds.union(&boxes[plane]), sum + counts[plane]);
-            let cost = bounds.half_area() * f64::from(sum) + right_costs[plane];
+            let cost = bounds.half_area() * blocks(sum) + right_costs[plane];
             if sum > 0 && best.map_or(!cost.is_nan(), |(least, ..)| cost < least) {
                 best = Some((cost, axis, plane));
             }
@@ -201,9 +204,15 @@ mod tests {
         let items = row(&[0.0, 1.0, 2.0, 3.0, 30.0, 99.0, 100.0]);
         // Areas times counts, by hand: after four 9 · 4 + 143 · 3 = 465; after five 63 · 5 + 5 · 2 = 325; elsewhere more.
         let bins = filled(&items, 8);
-        let (axis, plane) = cheapest(&bins, 8).expect("a plane");
+        let (axis, plane) = cheapest(&bins, 8, 1).expect("a plane");
         assert_eq!((axis, bins.sum(axis, 0..plane + 1).0, bins.sum(axis, plane + 1..8).0), (1, 5, 2));
-        assert_eq!(cheapest(&filled(&items[..1], 8), 8), None, "one thing cannot be split");
+        assert_eq!(cheapest(&filled(&items[..1], 8), 8, 1), None, "one thing cannot be split");
+        // In blocks of four: after four 9 · 1 + 143 · 1 = 152, after five 63 · 2 + 5 · 1 = 131, after six 201 · 2 + 1.
+        let (_, plane) = cheapest(&bins, 8, 4).expect("a plane");
+        assert_eq!(bins.sum(1, 0..plane + 1).0, 5);
+        // In blocks of three: after three 7 · 1 + 145 · 2 = 297, after five 63 · 2 + 5 = 131; in blocks of five 63 + 5.
+        let five = cheapest(&bins, 8, 5).expect("a plane").1;
+        assert_eq!(bins.sum(1, 0..five + 1).0, 5);
     }
 
     #[test]

@@ -9,12 +9,14 @@ pub(crate) const BLOCK: usize = 4;
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks {
     pub(super) nodes: Vec<Node>,
-    order: Vec<[u32; BLOCK]>,
 }
 
 impl Blocks {
     /// Makes each leaf of a tree a block; the leaves must hold at most four things.
-    pub(crate) fn new(tree: Bvh) -> Self {
+    ///
+    /// Tells the things of each block, by their index among the boxes the tree was built from; the last of a block that
+    /// is not full is repeated.
+    pub(crate) fn new(tree: Bvh) -> (Self, Vec<[u32; BLOCK]>) {
         let Bvh { mut nodes, order: things } = tree;
         let mut order = vec![];
         for node in &mut nodes {
@@ -27,13 +29,7 @@ impl Blocks {
                 }
             }
         }
-        Self { nodes, order }
-    }
-
-    /// The things of each block, by their index among the boxes the tree was built from; the last of a block that is
-    /// not full is repeated.
-    pub(crate) fn order(&self) -> &[[u32; BLOCK]] {
-        &self.order
+        (Self { nodes }, order)
     }
 
     /// The boxes of the root's children: up to eight that together hold everything.
@@ -42,6 +38,6 @@ impl Blocks {
     }
 
     pub(crate) fn bytes(&self) -> usize {
-        self.nodes.len() * size_of::<Node>() + self.order.len() * size_of::<[u32; BLOCK]>()
+        self.nodes.len() * size_of::<Node>()
     }
 }

@@ -7,6 +7,7 @@
 
 use super::bins::{BINS, Bins, Box4, Item, Scale, cheapest};
 use super::{Box32, Bvh, Child, MAX_LEAF, MAX_LEN, Node, WIDTH};
+use crate::pages;
 use rayon::prelude::*;
 use smallvec::SmallVec;
 
@@ -26,31 +27,43 @@ impl Bvh {
     /// With more than [`MAX_LEN`] boxes.
     #[must_use]
     pub fn build(boxes: impl ExactSizeIterator<Item = Box32>, leaf: usize) -> Self {
-        Self::over(boxes.enumerate().map(|(i, bounds)| Item::new(&bounds, i)).collect(), leaf)
+        Self::over(boxes.enumerate().map(|(i, bounds)| Item::new(&bounds, i)).collect(), leaf, 1)
     }
 
-    /// The same of `len` boxes, which are made in parallel if they are many.
+    /// The same of `len` boxes, which are made in parallel if they are many, for leaves whose things are tested together.
     ///
     /// # Panics
     /// With more than [`MAX_LEN`] boxes.
     #[must_use]
     pub fn build_with(len: usize, bounds: impl Fn(usize) -> Box32 + Sync, leaf: usize) -> Self {
         let item = |i| Item::new(&bounds(i), i);
-        Self::over((0..len).into_par_iter().with_min_len(PARALLEL).map(item).collect(), leaf)
+        let mut items = pages::with_room(len);
+        (0..len).into_par_iter().with_min_len(PARALLEL).map(item).collect_into_vec(&mut items);
+        Self::over(items, leaf, leaf)
     }
 
-    fn over(mut items: Vec<Item>, leaf: usize) -> Self {
+    fn over(mut items: Vec<Item>, leaf: usize, block: usize) -> Self {
         assert!(items.len() <= MAX_LEN, "a tree holds at most {MAX_LEN} things");
-        let leaf = leaf.clamp(1, MAX_LEAF);
+        let most = leaf.clamp(1, MAX_LEAF);
+        let leaf = Leaves { most, block: block.clamp(1, most) as u32 };
         let mut nodes = vec![];
         if !items.is_empty() {
             let whole = Span { first: 0, len: items.len(), bounds: bounds_of(&items) };
             let tree = subtree(&mut items, whole, leaf, 0);
-            nodes.reserve_exact(tree.count());
+            nodes = pages::with_room(tree.count());
             tree.flatten(&mut nodes);
         }
         Self { nodes, order: items.iter().map(Item::index).collect() }
     }
+}
+
+/// What leaves are to hold.
+#[derive(Clone, Copy)]
+struct Leaves {
+    /// Most things in one.
+    most: usize,
+    /// How many things are tested together, at the cost of one.
+    block: u32,
 }
 
 /// A run of items, and the box around them.
@@ -87,9 +100,9 @@ impl Part {
 }
 
 /// The tree over a run, which is sorted on the way.
-fn subtree(items: &mut [Item], whole: Span, leaf: usize, depth: usize) -> Part {
+fn subtree(items: &mut [Item], whole: Span, leaf: Leaves, depth: usize) -> Part {
     if whole.len < PARALLEL {
-        let mut nodes = Vec::with_capacity(whole.len / leaf);
+        let mut nodes = Vec::with_capacity(whole.len / leaf.most);
         grow(&mut nodes, items, whole, leaf, depth, &mut Bins::new());
         return Part { nodes, below: vec![] };
     }
@@ -99,7 +112,7 @@ fn subtree(items: &mut [Item], whole: Span, leaf: usize, depth: usize) -> Part {
     for (lane, span) in spans.iter().enumerate() {
         let (mine, others) = rest.split_at_mut(span.len);
         rest = others;
-        if span.len > leaf {
+        if span.len > leaf.most {
             work.push((lane, mine, *span));
         }
     }
@@ -108,12 +121,12 @@ fn subtree(items: &mut [Item], whole: Span, leaf: usize, depth: usize) -> Part {
 }
 
 /// Appends the tree over a run; returns the number of its root.
-fn grow(nodes: &mut Vec<Node>, items: &mut [Item], whole: Span, leaf: usize, depth: usize, bins: &mut Bins) -> usize {
+fn grow(nodes: &mut Vec<Node>, items: &mut [Item], whole: Span, leaf: Leaves, depth: usize, bins: &mut Bins) -> usize {
     let spans = children(items, whole, leaf, depth, bins);
     let root = nodes.len();
     nodes.push(node(&spans, leaf));
     for (lane, span) in spans.iter().enumerate() {
-        if span.len > leaf {
+        if span.len > leaf.most {
             let first = span.first - whole.first;
             let child = grow(nodes, &mut items[first..first + span.len], *span, leaf, depth + 1, bins);
             nodes[root].child[lane] = Child::node(child);
@@ -123,14 +136,14 @@ fn grow(nodes: &mut Vec<Node>, items: &mut [Item], whole: Span, leaf: usize, dep
 }
 
 /// A node whose leaves are in place, but not its other children.
-fn node(spans: &[Span], leaf: usize) -> Node {
+fn node(spans: &[Span], leaf: Leaves) -> Node {
     let mut node = Node::EMPTY;
     for (lane, span) in spans.iter().enumerate() {
         for axis in 0..3 {
             node.planes[axis][lane] = span.bounds.min[axis];
             node.planes[3 + axis][lane] = span.bounds.max[axis];
         }
-        if span.len <= leaf {
+        if span.len <= leaf.most {
             node.child[lane] = Child::leaf(span.first, span.len);
         }
     }
@@ -138,13 +151,13 @@ fn node(spans: &[Span], leaf: usize) -> Node {
 }
 
 /// Partitions a run into two to eight, in order: the run that costs most is split until there are eight.
-fn children(items: &mut [Item], whole: Span, leaf: usize, depth: usize, bins: &mut Bins) -> SmallVec<[Span; WIDTH]> {
+fn children(items: &mut [Item], whole: Span, leaf: Leaves, depth: usize, bins: &mut Bins) -> SmallVec<[Span; WIDTH]> {
     let mut spans: SmallVec<[Span; WIDTH]> = SmallVec::new();
     spans.push(whole);
     while spans.len() < WIDTH {
         let cost = |span: &Span| span.bounds.half_area() * span.len as f64;
         let mut most: Option<(usize, f64)> = None;
-        for (i, span) in spans.iter().enumerate().filter(|(_, span)| span.len > leaf) {
+        for (i, span) in spans.iter().enumerate().filter(|(_, span)| span.len > leaf.most) {
             // On equal cost the first.
             if most.is_none_or(|(_, most)| cost(span) > most) {
                 most = Some((i, cost(span)));
@@ -153,7 +166,7 @@ fn children(items: &mut [Item], whole: Span, leaf: usize, depth: usize, bins: &m
         let Some((i, _)) = most else { break };
         let span = spans[i];
         let run = &mut items[span.first - whole.first..][..span.len];
-        let [a, b] = if depth < MAX_SAH_DEPTH { split(run, bins) } else { halve(run) };
+        let [a, b] = if depth < MAX_SAH_DEPTH { split(run, bins, leaf) } else { halve(run) };
         spans[i] = Span { first: span.first, len: a.0, bounds: a.1 };
         spans.insert(i + 1, Span { first: span.first + a.0, len: b.0, bounds: b.1 });
     }
@@ -190,7 +203,7 @@ fn reach_of(items: &[Item]) -> Box4 {
 }
 
 /// Partitions by the cheapest plane between bins; neither side is empty.
-fn split(items: &mut [Item], bins: &mut Bins) -> Sides {
+fn split(items: &mut [Item], bins: &mut Bins, leaf: Leaves) -> Sides {
     let count = (4 + items.len() / 8).min(BINS);
     let scale = Scale::over(&reach_of(items), count);
     if items.len() < LARGE {
@@ -204,7 +217,7 @@ fn split(items: &mut [Item], bins: &mut Bins) -> Sides {
         };
         *bins = items.par_chunks(PARALLEL).map(fill).reduce(Bins::new, |a, b| a.merged(&b));
     }
-    let Some((axis, plane)) = cheapest(bins, count) else { return halve(items) };
+    let Some((axis, plane)) = cheapest(bins, count, leaf.block) else { return halve(items) };
     let along = scale.along(axis);
     partition(items, |item| along.bins_of([item.center()[axis]; 4])[0] <= plane);
     [bins.sum(axis, 0..plane + 1), bins.sum(axis, plane + 1..count)]
@@ -300,7 +313,7 @@ mod tests {
     fn the_tree_is_the_same_for_any_number_of_threads() {
         for count in [PARALLEL - 1, 3 * PARALLEL, 3 * LARGE + 5] {
             let boxes = boxes(count);
-            let alone = build(&boxes, 4, 1);
+            let alone = build_with(&boxes, 4, 1);
             for threads in [2, 5] {
                 let together = build_with(&boxes, 4, threads);
                 assert_eq!(alone.order, together.order);

@@ -2,7 +2,7 @@
 
 use super::{Blocks, Bvh, Child, Node, WIDTH};
 use crate::{
-    lanes::{self, Job, Lanes, Stack},
+    lanes::{self, Job, Lanes, Room, Stack},
     primitive::Cost,
     space::Ray,
 };
@@ -110,6 +110,13 @@ pub(super) fn above(t: f64) -> f32 {
     (t * (1.0 + ULP32) + TINY32) as f32
 }
 
+/// Whether a ray starts where the differences to boxes leave the range of `f32`: what they say then is worth nothing.
+#[inline(always)]
+fn is_beyond_boxes(origin: DVec3) -> bool {
+    let reach = origin.abs();
+    larger(larger(reach.x, reach.y), reach.z) > 0.25 * f64::from(f32::MAX)
+}
+
 /// A leaf, as the tree stores it: a run of the order for a [`Bvh`], one block for [`Blocks`].
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Leaf {
@@ -139,6 +146,20 @@ fn first(distances: &[f32; WIDTH], node: &Node, mask: u32) -> u64 {
     u64::from(distances[lane].to_bits()) << 32 | u64::from(node.child[lane].0)
 }
 
+/// Visits all leaves, until nothing matters any more.
+#[cold]
+#[inline(never)]
+fn visit_all<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], cost: &mut Cost, visitor: &mut V) {
+    for node in nodes {
+        cost.nodes += 1;
+        for lane in (0..WIDTH).filter(|&lane| node.holds(lane) && node.child[lane].is_leaf()) {
+            if visitor.visit(lanes, node.child[lane].leaf_run(), cost).is_none() {
+                return;
+            }
+        }
+    }
+}
+
 /// Visits the leaves along the ray, nearest first, until nothing is left within the limit.
 #[inline(always)]
 fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, cost: &mut Cost, visitor: &mut V) {
@@ -146,9 +167,13 @@ fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, c
     if nodes.is_empty() || !ray.is_valid() {
         return;
     }
+    if is_beyond_boxes(ray.origin) {
+        return visit_all(lanes, nodes, cost, visitor);
+    }
     let ray = BoxRay::new(lanes, ray);
     let mut limit = above(limit);
-    let mut stack = Stack::<ROOM>::new();
+    let mut room = Room::<ROOM>::new();
+    let mut stack = Stack::new(&mut room);
     let mut child = Child::node(0);
     loop {
         if child.is_leaf() {
@@ -380,6 +405,27 @@ mod tests {
         let b = Bounds { min: DVec3::ZERO, max: DVec3::new(1.0, beside, 1.0) };
         let tree = Bvh::build([Box32::around(&b)].into_iter(), 1);
         assert_eq!(visited(&tree, &Ray { origin, direction: DVec3::X }), [0]);
+    }
+
+    #[test]
+    fn a_ray_from_beyond_the_range_of_boxes_visits_all_and_ends() {
+        let wide = |reach: f64| Bounds { min: DVec3::splat(-reach), max: DVec3::splat(reach) };
+        for reach in [1.0, 1e38, 1e39, 1e300] {
+            let boxes: Vec<_> = (1..=20).map(|i| Box32::around(&wide(reach / f64::from(i)))).collect();
+            let tree = Bvh::build(boxes.into_iter(), 2);
+            for sign in [-1.0, 1.0] {
+                for origin in [1.0, 1e38, 3e38, 4e38, 1e39, 1e300].map(|far| DVec3::splat(sign * far)) {
+                    for direction in [DVec3::splat(-sign), DVec3::splat(-sign * 1e300), DVec3::new(0.0, 0.0, -sign)] {
+                        let mut seen = visited(&tree, &Ray { origin, direction });
+                        seen.sort_unstable();
+                        seen.dedup();
+                        if direction.x != 0.0 {
+                            assert_eq!(seen.len(), 20, "boxes of {reach} from {origin} along {direction}");
+                        }
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -11,7 +11,7 @@ mod x86;
 
 use core::sync::atomic::{AtomicU8, Ordering};
 use portable::Portable;
-pub(crate) use stack::Stack;
+pub(crate) use stack::{Room, Stack};
 
 /// How much of the machine inner loops use; decides speed, never a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,6 +21,8 @@ pub enum Level {
     Baseline = 1,
     /// x86-64 with AVX2.
     Avx2 = 2,
+    /// x86-64 with AVX-512 on 256 bits.
+    Avx512 = 3,
 }
 
 /// The level in use; zero until it is asked for.
@@ -28,7 +30,7 @@ static LEVEL: AtomicU8 = AtomicU8::new(0);
 
 impl Level {
     /// All levels, lowest first.
-    pub const ALL: [Self; 2] = [Self::Baseline, Self::Avx2];
+    pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
 
     /// The level that walks use: the highest the machine has, unless another was chosen.
     #[must_use]
@@ -38,6 +40,7 @@ impl Level {
         match LEVEL.load(Ordering::Relaxed) {
             1 => Self::Baseline,
             2 => Self::Avx2,
+            3 => Self::Avx512,
             _ => Self::detect(),
         }
     }
@@ -56,8 +59,10 @@ impl Level {
             Self::Baseline => true,
             #[cfg(target_arch = "x86_64")]
             Self::Avx2 => x86::Avx2::is_available(),
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512 => x86::Avx512::is_available(),
             #[cfg(not(target_arch = "x86_64"))]
-            Self::Avx2 => false,
+            Self::Avx2 | Self::Avx512 => false,
         }
     }
 
@@ -91,8 +96,16 @@ fn run_at<J: Job>(level: Level, job: J) -> J::Output {
     match level {
         #[cfg(target_arch = "x86_64")]
         Level::Avx2 => x86::run_avx2(job),
-        _ => job.run(Portable),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512 => x86::run_avx512(job),
+        _ => run_portable(job),
     }
+}
+
+/// Never inlined: callers must not set up the room that a walk at another level takes.
+#[inline(never)]
+fn run_portable<J: Job>(job: J) -> J::Output {
+    job.run(Portable)
 }
 
 /// Eight `f32` or four `f64` at once.

@@ -2,16 +2,27 @@
 
 use core::mem::MaybeUninit;
 
-/// Up to `N` entries; those beyond `len` are not initialised.
-pub(crate) struct Stack<const N: usize> {
-    entries: [MaybeUninit<u64>; N],
+/// Where up to `N` entries of a stack are kept.
+pub(crate) struct Room<const N: usize>([MaybeUninit<u64>; N]);
+
+impl<const N: usize> Room<N> {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        Self([const { MaybeUninit::uninit() }; N])
+    }
+}
+
+/// A stack; its entries beyond `len` are not initialised. They stand elsewhere, so that `len` is kept in a register.
+pub(crate) struct Stack<'a, const N: usize> {
+    entries: &'a mut [MaybeUninit<u64>; N],
     len: usize,
 }
 
-impl<const N: usize> Stack<N> {
+impl<'a, const N: usize> Stack<'a, N> {
+    /// An empty stack.
     #[inline(always)]
-    pub(crate) fn new() -> Self {
-        Self { entries: [const { MaybeUninit::uninit() }; N], len: 0 }
+    pub(crate) fn new(Room(entries): &'a mut Room<N>) -> Self {
+        Self { entries, len: 0 }
     }
 
     /// Adds an entry; there must be room.

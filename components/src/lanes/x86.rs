@@ -1,6 +1,7 @@
-//! Lanes of x86-64: the only `unsafe` code of the project.
+//! Lanes of x86-64.
 //!
-//! An [`Avx2`] is made in one place, after the machine was asked; having one is the proof that the instructions exist.
+//! An [`Avx2`] or [`Avx512`] is made in one place, after the machine was asked; having one is the proof that the
+//! instructions exist.
 //! Intrinsics are inlined into the function that enables them, so each is one instruction.
 
 use super::{Job, Lanes};
@@ -31,46 +32,87 @@ pub(super) fn run_avx2<J: Job>(job: J) -> J::Output {
     unsafe { enabled(job) }
 }
 
+/// Proof that the machine has AVX-512 with its forms for 256 bits: as many lanes as with AVX2, but twice the registers,
+/// so that a ray stays in them, and comparisons that give masks.
+#[derive(Clone, Copy)]
+pub(super) struct Avx512(());
+
+impl Avx512 {
+    pub(super) fn is_available() -> bool {
+        Avx2::is_available()
+            && is_x86_feature_detected!("avx512f")
+            && is_x86_feature_detected!("avx512vl")
+            && is_x86_feature_detected!("avx512dq")
+            && is_x86_feature_detected!("avx512bw")
+    }
+}
+
+/// Does a job with AVX-512; the level must be available.
+#[inline(always)]
+pub(super) fn run_avx512<J: Job>(job: J) -> J::Output {
+    #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx512bw,avx2,bmi1,bmi2,popcnt,lzcnt")]
+    fn enabled<J: Job>(job: J) -> J::Output {
+        job.run(Avx512(()))
+    }
+    // SAFETY: `Level::choose` stores a level only if it is available.
+    unsafe { enabled(job) }
+}
+
 macro_rules! op {
     ($name:ident($($arg:ident: $ty:ty),*) -> $out:ty = $body:expr) => {
         #[inline(always)]
         fn $name(self, $($arg: $ty),*) -> $out {
-            // SAFETY: `self` proves that the machine has AVX2; what is read or written is behind references of that size.
+            // SAFETY: `self` proves that the machine has the level; what is read or written is behind references of that size.
             unsafe { $body }
         }
     };
 }
 
+/// The operations that both levels have alike.
+macro_rules! common {
+    () => {
+        type F = __m256;
+        type D = __m256d;
+
+        op!(f_load(from: &[f32; 8]) -> __m256 = _mm256_loadu_ps(from.as_ptr()));
+        op!(f_store(a: __m256, to: &mut [f32; 8]) -> () = _mm256_storeu_ps(to.as_mut_ptr(), a));
+        op!(f_splat(x: f32) -> __m256 = _mm256_set1_ps(x));
+        op!(f_sub(a: __m256, b: __m256) -> __m256 = _mm256_sub_ps(a, b));
+        op!(f_mul(a: __m256, b: __m256) -> __m256 = _mm256_mul_ps(a, b));
+        op!(f_min(a: __m256, b: __m256) -> __m256 = _mm256_min_ps(a, b));
+        op!(f_max(a: __m256, b: __m256) -> __m256 = _mm256_max_ps(a, b));
+        op!(d_load(from: &[f64; 4]) -> __m256d = _mm256_loadu_pd(from.as_ptr()));
+        op!(d_store(a: __m256d, to: &mut [f64; 4]) -> () = _mm256_storeu_pd(to.as_mut_ptr(), a));
+        op!(d_widen(from: &[f32; 4]) -> __m256d = _mm256_cvtps_pd(_mm_loadu_ps(from.as_ptr())));
+        op!(d_narrow(a: __m256d) -> [f32; 4] = core::mem::transmute::<__m128, [f32; 4]>(_mm256_cvtpd_ps(a)));
+        op!(d_splat(x: f64) -> __m256d = _mm256_set1_pd(x));
+        op!(d_add(a: __m256d, b: __m256d) -> __m256d = _mm256_add_pd(a, b));
+        op!(d_sub(a: __m256d, b: __m256d) -> __m256d = _mm256_sub_pd(a, b));
+        op!(d_mul(a: __m256d, b: __m256d) -> __m256d = _mm256_mul_pd(a, b));
+        op!(d_div(a: __m256d, b: __m256d) -> __m256d = _mm256_div_pd(a, b));
+        op!(d_min(a: __m256d, b: __m256d) -> __m256d = _mm256_min_pd(a, b));
+        op!(d_max(a: __m256d, b: __m256d) -> __m256d = _mm256_max_pd(a, b));
+        op!(d_abs(a: __m256d) -> __m256d = _mm256_andnot_pd(_mm256_set1_pd(-0.0), a));
+        op!(d_with_sign(a: __m256d, b: __m256d) -> __m256d = {
+            let sign = _mm256_set1_pd(-0.0);
+            _mm256_or_pd(_mm256_andnot_pd(sign, a), _mm256_and_pd(sign, b))
+        });
+        op!(d_signs(a: __m256d) -> u32 = _mm256_movemask_pd(a) as u32);
+    };
+}
+
 impl Lanes for Avx2 {
-    type F = __m256;
-    type D = __m256d;
+    common!();
 
-    op!(f_load(from: &[f32; 8]) -> __m256 = _mm256_loadu_ps(from.as_ptr()));
-    op!(f_store(a: __m256, to: &mut [f32; 8]) -> () = _mm256_storeu_ps(to.as_mut_ptr(), a));
-    op!(f_splat(x: f32) -> __m256 = _mm256_set1_ps(x));
-    op!(f_sub(a: __m256, b: __m256) -> __m256 = _mm256_sub_ps(a, b));
-    op!(f_mul(a: __m256, b: __m256) -> __m256 = _mm256_mul_ps(a, b));
-    op!(f_min(a: __m256, b: __m256) -> __m256 = _mm256_min_ps(a, b));
-    op!(f_max(a: __m256, b: __m256) -> __m256 = _mm256_max_ps(a, b));
     op!(f_le(a: __m256, b: __m256) -> u32 = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32);
-
-    op!(d_load(from: &[f64; 4]) -> __m256d = _mm256_loadu_pd(from.as_ptr()));
-    op!(d_store(a: __m256d, to: &mut [f64; 4]) -> () = _mm256_storeu_pd(to.as_mut_ptr(), a));
-    op!(d_widen(from: &[f32; 4]) -> __m256d = _mm256_cvtps_pd(_mm_loadu_ps(from.as_ptr())));
-    op!(d_narrow(a: __m256d) -> [f32; 4] = core::mem::transmute::<__m128, [f32; 4]>(_mm256_cvtpd_ps(a)));
-    op!(d_splat(x: f64) -> __m256d = _mm256_set1_pd(x));
-    op!(d_add(a: __m256d, b: __m256d) -> __m256d = _mm256_add_pd(a, b));
-    op!(d_sub(a: __m256d, b: __m256d) -> __m256d = _mm256_sub_pd(a, b));
-    op!(d_mul(a: __m256d, b: __m256d) -> __m256d = _mm256_mul_pd(a, b));
-    op!(d_div(a: __m256d, b: __m256d) -> __m256d = _mm256_div_pd(a, b));
-    op!(d_min(a: __m256d, b: __m256d) -> __m256d = _mm256_min_pd(a, b));
-    op!(d_max(a: __m256d, b: __m256d) -> __m256d = _mm256_max_pd(a, b));
-    op!(d_abs(a: __m256d) -> __m256d = _mm256_andnot_pd(_mm256_set1_pd(-0.0), a));
-    op!(d_with_sign(a: __m256d, b: __m256d) -> __m256d = {
-        let sign = _mm256_set1_pd(-0.0);
-        _mm256_or_pd(_mm256_andnot_pd(sign, a), _mm256_and_pd(sign, b))
-    });
-    op!(d_signs(a: __m256d) -> u32 = _mm256_movemask_pd(a) as u32);
     op!(d_lt(a: __m256d, b: __m256d) -> u32 = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) as u32);
     op!(d_le(a: __m256d, b: __m256d) -> u32 = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(a, b)) as u32);
+}
+
+impl Lanes for Avx512 {
+    common!();
+
+    op!(f_le(a: __m256, b: __m256) -> u32 = u32::from(_mm256_cmp_ps_mask::<_CMP_LE_OQ>(a, b)));
+    op!(d_lt(a: __m256d, b: __m256d) -> u32 = u32::from(_mm256_cmp_pd_mask::<_CMP_LT_OQ>(a, b)));
+    op!(d_le(a: __m256d, b: __m256d) -> u32 = u32::from(_mm256_cmp_pd_mask::<_CMP_LE_OQ>(a, b)));
 }

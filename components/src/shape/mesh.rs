@@ -28,9 +28,10 @@ struct Attribute<const N: usize> {
 }
 
 impl<const N: usize> Attribute<N> {
-    fn of(&self, triangle: u32) -> Option<[[f64; N]; 3]> {
-        let corners = self.corners.get(triangle as usize).filter(|corners| corners[0] != ABSENT)?;
-        Some(corners.map(|i| self.values[i as usize].map(f64::from)))
+    #[inline]
+    fn of(&self, triangle: u32) -> Option<[[f32; N]; 3]> {
+        let [a, b, c] = *self.corners.get(triangle as usize).filter(|corners| corners[0] != ABSENT)?;
+        Some([self.values[a as usize], self.values[b as usize], self.values[c as usize]])
     }
 }
 
@@ -198,8 +199,14 @@ impl TriangleMesh {
     }
 }
 
-pub(super) fn point(v: [f32; 3]) -> DVec3 {
-    DVec3::from_array(v.map(f64::from))
+#[inline]
+pub(super) fn point([x, y, z]: [f32; 3]) -> DVec3 {
+    DVec3::new(f64::from(x), f64::from(y), f64::from(z))
+}
+
+#[inline]
+fn point2([x, y]: [f32; 2]) -> DVec2 {
+    DVec2::new(f64::from(x), f64::from(y))
 }
 
 fn check_indices(what: &str, corners: &[[u32; 3]], len: usize) -> Result<(), MeshError> {
@@ -299,18 +306,21 @@ impl Placed {
         let [u, v, w] = RayFrame::new(&ray.transformed(&self.object_from_world)).weights(vertices);
         let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
         let normal = (self.cotangent * (b - a).cross(c - a)).normalize_or(DVec3::Y);
+        let modelled = || mesh.normals.of(hit.part);
         let normals = match self.shading {
             Shading::Flat => None,
-            Shading::Smooth => Some(mesh.normals.of(hit.part).map_or_else(
-                || mesh.triangles[hit.part as usize].map(|v| point(mesh.smooth_normals()[v as usize])),
-                |normals| normals.map(DVec3::from_array),
-            )),
-            Shading::AsModelled => mesh.normals.of(hit.part).map(|normals| normals.map(DVec3::from_array)),
+            Shading::Smooth => modelled().or_else(|| {
+                let [a, b, c] = mesh.triangles[hit.part as usize];
+                let normals = mesh.smooth_normals();
+                Some([normals[a as usize], normals[b as usize], normals[c as usize]])
+            }),
+            Shading::AsModelled => modelled(),
         };
+        let blended = normals.map(|[a, b, c]| blend([point(a), point(b), point(c)]));
         let surface = Surface {
             point: self.world_from_object.transform_point3(blend(vertices)),
             normal,
-            shading_normal: normals.map_or(normal, |normals| (self.cotangent * blend(normals)).normalize_or(normal)),
+            shading_normal: blended.map_or(normal, |blended| (self.cotangent * blended).normalize_or(normal)),
             uv: DVec2::ZERO,
             slot: mesh.slots.get(hit.part as usize).map_or(0, |&slot| u32::from(slot)),
             error: self.error,
@@ -384,7 +394,7 @@ impl Primitive for Mesh {
     fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
         let (surface, [u, v, w]) = packed.placed.surface(ray, hit);
         let uv = match packed.placed.mesh.uvs.of(hit.part) {
-            Some([a, b, c]) => DVec2::from_array(a) * u + DVec2::from_array(b) * v + DVec2::from_array(c) * w,
+            Some([a, b, c]) => point2(a) * u + point2(b) * v + point2(c) * w,
             None => DVec2::new(v, w),
         };
         Surface { uv, ..surface }

@@ -7,6 +7,7 @@ use super::{
 use crate::{
     bvh::{BLOCK, Blocks, Box32, Bvh, Leaf, Visitor, reaches},
     lanes::{self, Job, Lanes},
+    pages,
     primitive::{Cost, Hit},
     space::{BoundingSphere, Bounds, Ray},
 };
@@ -30,14 +31,16 @@ impl MeshTree {
     /// Builds the tree over `len` triangles.
     pub(super) fn build(len: usize, corners: impl Fn(u32) -> [[f32; 3]; 3] + Sync) -> Self {
         let tree = Bvh::build_with(len, |i| Box32::of_triangle(&corners(i as u32)), BLOCK);
-        let tree = Blocks::new(tree);
+        let (tree, order) = Blocks::new(tree);
         let block = |triangles: &[u32; BLOCK]| {
-            let triangles = triangles.map(&corners);
-            Block([0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| triangles.map(|triangle| triangle[vertex][axis]))))
+            let corners = triangles.map(&corners);
+            let vertices = [0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| corners.map(|corners| corners[vertex][axis])));
+            Block { vertices, triangles: *triangles }
         };
-        let blocks = tree.order().par_iter().with_min_len(1024).map(block).collect();
+        let mut blocks = pages::with_room(order.len());
+        order.par_iter().with_min_len(1024).map(block).collect_into_vec(&mut blocks);
         let mut places = vec![0; len];
-        for (i, &triangle) in tree.order().as_flattened().iter().enumerate() {
+        for (i, &triangle) in order.as_flattened().iter().enumerate() {
             places[triangle as usize] = i as u32;
         }
         let all = || (0..len).flat_map(|i| corners(i as u32)).map(point);
@@ -62,9 +65,7 @@ impl MeshTree {
     #[inline]
     pub(super) fn vertices(&self, triangle: u32) -> [DVec3; 3] {
         let place = self.places[triangle as usize] as usize;
-        let Block(vertices) = &self.blocks[place / BLOCK];
-        let lane = place % BLOCK;
-        vertices.map(|[x, y, z]| point([x[lane], y[lane], z[lane]]))
+        self.blocks[place / BLOCK].vertices_of(place % BLOCK)
     }
 
     /// The nearest hit within `t_max`, the lowest triangle among equally near ones; the ray is in the world.
@@ -122,13 +123,13 @@ impl Visitor for Search<'_> {
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
         cost.primitives += leaf.len as u64;
-        if let Some((mut hits, distances)) = self.frame.hit_block(lanes, &self.tree.blocks[leaf.first], self.limit) {
-            let order = &self.tree.tree.order()[leaf.first];
+        let block = &self.tree.blocks[leaf.first];
+        if let Some((mut hits, distances)) = self.frame.hit_block(lanes, block, self.limit) {
             while hits != 0 {
                 let lane = hits.trailing_zeros() as usize % BLOCK;
                 hits &= hits - 1;
-                let hit = Hit { t: distances[lane], part: order[lane] };
-                if self.only_reached.is_some_and(|ray| !reaches(ray, &self.tree.vertices(hit.part), hit.t)) {
+                let hit = Hit { t: distances[lane], part: block.triangles[lane] };
+                if self.only_reached.is_some_and(|ray| !reaches(ray, &block.vertices_of(lane), hit.t)) {
                     continue;
                 }
                 // On equal distance the lowest index, whatever the order of the walk.
@@ -178,12 +179,13 @@ impl Visitor for AnySearch<'_> {
     #[inline(always)]
     fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, cost: &mut Cost) -> Option<f64> {
         cost.primitives += leaf.len as u64;
-        if let Some((mut hits, distances)) = self.frame.hit_block(lanes, &self.tree.blocks[leaf.first], self.t_max) {
+        let block = &self.tree.blocks[leaf.first];
+        if let Some((mut hits, distances)) = self.frame.hit_block(lanes, block, self.t_max) {
             while hits != 0 {
                 let lane = hits.trailing_zeros() as usize % BLOCK;
                 hits &= hits - 1;
-                let (t, triangle) = (distances[lane], self.tree.tree.order()[leaf.first][lane]);
-                if t < self.t_max && reaches(self.ray, &self.tree.vertices(triangle), t) {
+                let t = distances[lane];
+                if t < self.t_max && reaches(self.ray, &block.vertices_of(lane), t) {
                     self.found = true;
                     return None;
                 }

@@ -36,12 +36,13 @@ impl<R: Real> Sheared<R> {
     #[inline]
     pub fn new(ray: &Ray) -> Self {
         let d: Vector<R> = real::vector(ray.direction);
-        let size = d.map(Real::abs);
+        let (x, y, z) = (d[0].abs(), d[1].abs(), d[2].abs());
         // Without branches: nothing foretells them.
-        let yz = if size[1] >= size[2] { 1 } else { 2 };
-        let kz = if size[0] >= size[1] && size[0] >= size[2] { 0 } else { yz };
+        let yz = if y >= z { 1 } else { 2 };
+        let kz = if x >= y && x >= z { 0 } else { yz };
         // The axes that follow; the winding is kept whichever way the ray runs along its main axis.
-        let [next, last] = [[1, 2], [2, 0], [0, 1]][kz];
+        let next = if kz == 2 { 0 } else { kz + 1 };
+        let last = if kz == 0 { 2 } else { kz - 1 };
         let backward = d[kz] < R::ZERO;
         let (kx, ky) = (if backward { last } else { next }, if backward { next } else { last });
         let scale_z = R::ONE / d[kz];
@@ -68,13 +69,15 @@ impl<R: Real> Sheared<R> {
     /// Weights of the three vertices where the ray crosses the triangle's plane, beside the triangle too; those of
     /// [`Sheared::hit`] where that hits. The first vertex alone for a ray along the plane.
     #[must_use]
+    #[inline]
     pub fn weights(&self, vertices: [DVec3; 3]) -> [f64; 3] {
-        let [u, v, w] = Self::edges(vertices.map(|v| self.place(v)));
+        let [a, b, c] = vertices;
+        let [u, v, w] = Self::edges([self.place(a), self.place(b), self.place(c)]);
         let det = u + v + w;
         if det == R::ZERO || !det.is_finite() {
             return [1.0, 0.0, 0.0];
         }
-        [u / det, v / det, w / det].map(Real::to_f64)
+        [(u / det).to_f64(), (v / det).to_f64(), (w / det).to_f64()]
     }
 
     /// Hit of either side of a triangle with `0 < t <= t_max`; edges and vertices count as inside.
@@ -114,10 +117,28 @@ impl<R: Real> TriangleKernel for Sheared<R> {
     }
 }
 
-/// Four triangles: their vertices by vertex, axis and triangle.
+/// Four triangles.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(16))]
-pub(crate) struct Block(pub(crate) [[[f32; 4]; 3]; 3]);
+#[repr(C, align(32))]
+pub(crate) struct Block {
+    /// By vertex, axis and triangle.
+    pub(crate) vertices: [[[f32; 4]; 3]; 3],
+    /// Which triangles they are.
+    pub(crate) triangles: [u32; 4],
+}
+
+impl Block {
+    /// The vertices of one of its triangles.
+    #[inline]
+    pub(crate) fn vertices_of(&self, lane: usize) -> [DVec3; 3] {
+        // Written out: the compiler does not inline a closure over arrays.
+        let vertex = |i: usize| {
+            let [x, y, z] = &self.vertices[i];
+            DVec3::new(f64::from(x[lane]), f64::from(y[lane]), f64::from(z[lane]))
+        };
+        [vertex(0), vertex(1), vertex(2)]
+    }
+}
 
 impl RayFrame {
     /// [`RayFrame::place`] of four vertices.
@@ -135,7 +156,7 @@ impl RayFrame {
     #[inline(always)]
     pub(crate) fn hit_block<L: Lanes>(&self, lanes: L, block: &Block, t_max: f64) -> Option<(u32, [f64; 4])> {
         let l = lanes;
-        let [a, b, c] = &block.0;
+        let [a, b, c] = &block.vertices;
         let (a, b, c) = (self.place_block(l, a), self.place_block(l, b), self.place_block(l, c));
         let (u, v, w) = (cross(l, &c, &b), cross(l, &a, &c), cross(l, &b, &a));
         let zero = l.d_splat(0.0);
