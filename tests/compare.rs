@@ -133,6 +133,24 @@ fn a_picture_is_drawn_again_from_what_its_file_tells() {
 }
 
 #[test]
+fn a_picture_made_by_other_methods_is_drawn_again_by_them() {
+    let desk = Desk::new();
+    let draw = |file: &str, how: &str| desk.run(&format!("render ball.ron -o {file} -q {how}")).0;
+    assert_eq!((draw("plain.exr", ""), draw("single.exr", "--precision f32 --sphere-test naive")), (0, 0));
+    assert_eq!(desk.run("diff plain.exr single.exr").0, 1, "the methods show");
+    for file in ["plain.exr", "single.exr"] {
+        let told = format!("{file}: drawn again from ball.ron: the same to the last bit\n");
+        assert_eq!(desk.run(&format!("repro {file}")), (0, told, String::new()));
+    }
+    let (picture, mut told) = image::read(&desk.path("plain.exr")).expect("a picture");
+    told.insert(image::key::METHODS, "precision F16");
+    image::write(&desk.path("odd.exr"), Format::Exr, &picture, &told).expect("written");
+    let (code, _, err) = desk.run("repro odd.exr");
+    assert_eq!(code, 2);
+    assert!(err.contains("holds methods that are not known: `F16` is none of"), "{err}");
+}
+
+#[test]
 fn a_picture_of_raw_numbers_of_a_scene_placed_as_a_whole_is_drawn_again() {
     let desk = Desk::new();
     let settings =

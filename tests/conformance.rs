@@ -1,4 +1,4 @@
-//! The built-in shapes keep the contract of shapes.
+//! The built-in shapes, lights and patterns keep their contracts.
 
 mod support {
     #[expect(dead_code, reason = "one mesh of it is wanted")]
@@ -9,7 +9,7 @@ mod support {
 }
 
 use snell::{
-    conformance::{Form, check},
+    conformance::{Form, check, check_light, check_texture},
     prelude::*,
 };
 use std::sync::Arc;
@@ -72,4 +72,27 @@ fn figures_of_triangles_do() {
 #[test]
 fn sphere_flakes_do() {
     check(&[0, 2].map(|depth| SphereFlake { radius: 1.5, depth }), Form::Open).assert();
+}
+
+#[test]
+fn lights_do() {
+    let intensity = Rgb::new(2.0, 0.5, 0.0);
+    check_light(&[PointLight::at([1.0, 2.0, 3.0]), PointLight { intensity, ..PointLight::default() }]).assert();
+    check_light(&[DirectionalLight::along([1.0, -2.0, 0.5])]).assert();
+    let cone = ConeLight { position: DVec3::Y, angle: 50.0, intensity, ..ConeLight::default() };
+    check_light(&[cone.clone(), ConeLight { fall_off: FallOff::Linear, ..cone }]).assert();
+    let disk = DiskLight { position: DVec3::Y, radius: 3.0, intensity, ..DiskLight::default() };
+    check_light(&[disk.clone(), DiskLight { emission: Emission::Radiant, ..disk }]).assert();
+}
+
+#[test]
+fn patterns_do() {
+    let checker = Checker { odd: Rgb::new(0.2, 0.0, 3.0), frequency: 2.5, ..Checker::default() };
+    check_texture(&[checker.clone(), Checker { filtered: true, ..checker }]).assert();
+    let texels = (0..48u8).map(|n| [n, 5 * n, 255 - n]).collect();
+    let image = ImageTexture::from(Image::from_bytes(8, 6, texels).expect("an image"));
+    let wraps = [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp, Wrap::Once];
+    let filters = [Filter::Nearest, Filter::Bilinear, Filter::Trilinear, Filter::Anisotropic];
+    let all = wraps.into_iter().flat_map(|wrap| filters.map(|filter| ImageTexture { wrap, filter, ..image.clone() }));
+    check_texture(&all.collect::<Vec<_>>()).assert();
 }

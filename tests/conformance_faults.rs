@@ -1,8 +1,12 @@
-//! The suite for shapes catches faults: each of these is a ball with one of them.
+//! The suite for shapes, lights and patterns catches faults: each of these is a ball, a light or a pattern with one.
 
 use snell::{
-    conformance::{Form, check},
+    conformance::{Form, check, check_light, check_texture},
     prelude::*,
+};
+use std::sync::{
+    Arc,
+    atomic::{AtomicU32, Ordering},
 };
 
 macro_rules! faults {
@@ -149,5 +153,109 @@ impl<const FAULT: u8> Primitive for Broken<FAULT> {
         let surface = Self::surface(packed, ray, hit);
         let error = if FAULT == OTHER_WITHOUT_UV { surface.error.next_up() } else { surface.error };
         Surface { error, ..surface }
+    }
+}
+
+macro_rules! light_and_pattern_faults {
+    ($($fault:ident = $number:literal, $test:ident: $check:ident $($expected:literal)*;)*) => {$(
+        const $fault: u8 = $number;
+
+        #[test]
+        fn $test() {
+            let report = $check(&[Gloomy::<$fault> { level: 0.75 }]);
+            let failed: Vec<&str> = report.failures.iter().map(|failure| failure.check).collect();
+            let expected: &[&str] = &[$($expected),*];
+            assert_eq!(failed, expected, "{report}");
+        }
+    )*};
+}
+
+light_and_pattern_faults! {
+    SOUND_SHADE = 0, a_sound_light_has_none: check_light;
+    SOUND_PATTERN = 1, a_sound_pattern_has_none: check_texture;
+    LIGHT_BY_ONE_BIT = 2, a_light_brighter_than_told_by_one_bit: check_light "brightest";
+    LIGHT_BELOW_ZERO = 3, a_light_that_takes_light_away: check_light "light";
+    LIGHT_FROM_NOWHERE = 4, a_light_from_nowhere: check_light "light";
+    LIGHT_UNMOVED = 5, a_light_that_does_not_turn: check_light "placement";
+    LIGHT_OF_CHANCE = 6, a_light_of_chance: check_light "repeatable" "placement";
+    LIGHT_FIELD_FORGOTTEN = 7, a_field_of_a_light_that_is_not_read: check_light "text";
+    COLOR_BY_ONE_BIT = 8, a_colour_brighter_than_told_by_one_bit: check_texture "brightest";
+    COLOR_NOT_A_NUMBER = 9, a_colour_that_is_not_a_number: check_texture "pattern";
+    COLOR_OF_CHANCE = 10, a_colour_of_chance: check_texture "repeatable" "footprint";
+    FOOTPRINT_NOT_TOLD = 11, a_footprint_that_is_not_told: check_texture "footprint";
+}
+
+/// A light that comes from above, and an even pattern, with a fault.
+#[derive(Component, Clone, Debug, Default)]
+struct Gloomy<const FAULT: u8> {
+    level: f64,
+}
+
+impl<const FAULT: u8> Describe for Gloomy<FAULT> {
+    const TAG: &'static str = "Gloomy";
+
+    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
+        let mut forgotten = 1.0;
+        let place = if FAULT == LIGHT_FIELD_FORGOTTEN { &mut forgotten } else { &mut self.level };
+        fields.field("level", Value::Number(place), Spec::not_negative("how bright").required());
+    }
+}
+
+/// Another number every time.
+fn chance() -> f64 {
+    static ASKED: AtomicU32 = AtomicU32::new(0);
+    f64::from(ASKED.fetch_add(1, Ordering::Relaxed) % 1000) * 1e-3
+}
+
+/// The way to a light, and how bright it is.
+#[derive(Clone, Debug)]
+struct Shining<const FAULT: u8>(DVec3, f64);
+
+impl<const FAULT: u8> Light for Gloomy<FAULT> {
+    type Packed = Shining<FAULT>;
+
+    fn pack(&self, world_from_object: &DAffine3) -> Shining<FAULT> {
+        let placed = if FAULT == LIGHT_UNMOVED { DAffine3::IDENTITY } else { *world_from_object };
+        Shining(placed.transform_vector3(DVec3::Y), self.level)
+    }
+}
+
+impl<const FAULT: u8> Lamp for Shining<FAULT> {
+    fn illuminate(&self, _: DVec3, _: DVec2) -> Option<Illumination> {
+        let level = match FAULT {
+            LIGHT_BY_ONE_BIT => self.1.next_up(),
+            LIGHT_BELOW_ZERO => -self.1,
+            LIGHT_OF_CHANCE => self.1 * chance(),
+            _ => self.1,
+        };
+        let to_light = if FAULT == LIGHT_FROM_NOWHERE { DVec3::ZERO } else { self.0 };
+        Some(Illumination { to_light, distance: f64::INFINITY, intensity: Rgb::splat(level), shadows: true })
+    }
+
+    fn brightest(&self) -> Option<Rgb> {
+        Some(Rgb::splat(self.1))
+    }
+}
+
+impl<const FAULT: u8> Texture for Gloomy<FAULT> {
+    fn pack(&self) -> Option<Arc<dyn Pattern>> {
+        Some(Arc::new(self.clone()))
+    }
+}
+
+impl<const FAULT: u8> Pattern for Gloomy<FAULT> {
+    fn color(&self, at: &TexturePoint) -> Rgb {
+        Rgb::splat(match FAULT {
+            // One square of many.
+            COLOR_BY_ONE_BIT if at.uv.min_element() > 0.5 => self.level.next_up(),
+            COLOR_NOT_A_NUMBER if at.uv.x > 25.0 => f64::NAN,
+            COLOR_OF_CHANCE => self.level * chance(),
+            FOOTPRINT_NOT_TOLD => self.level / (1.0 + at.footprint.uv[0].length()),
+            _ => self.level,
+        })
+    }
+
+    fn brightest(&self) -> Option<Rgb> {
+        Some(Rgb::splat(self.level))
     }
 }

@@ -168,6 +168,21 @@ fn what_hides_a_light_is_named() {
 }
 
 #[test]
+fn colours_are_shown_as_the_scenes_encoding_has_them() {
+    let half = r#"(version: 1, settings: (width: 1, height: 1, background: 0.5, encoding: ENCODING), entities: {
+        "camera": [Camera(position: (0, 0, 0))]})"#;
+    for (encoding, level) in [("Srgb", "bc"), ("Raw", "80")] {
+        let mut renderer = Renderer::new();
+        renderer.load_text(&half.replace("ENCODING", encoding), "half.ron").expect("sound");
+        let tree = why(&renderer.snapshot().expect("a scene"), 0, 0);
+        let hex = format!("#{level}{level}{level}");
+        assert!(tree.to_string().contains(&format!("shown as {hex}")), "{tree}");
+        assert!(tree.svg().contains(&hex), "{}", tree.svg());
+        assert_eq!(serde_json::to_value(&tree).expect("JSON")["encoding"], encoding);
+    }
+}
+
+#[test]
 fn the_command_prints_text_json_and_a_drawing() {
     let desk = Desk::new();
     desk.put("room.ron", ROOM);

@@ -4,7 +4,7 @@
 //! methods, kept to chart speed against accuracy and to show where they fail (see `docs/accuracy.md`); a picture made
 //! with them may have holes and specks that the scene does not.
 
-use crate::choice;
+use crate::{choice, describe::Choice};
 
 choice! {
     /// How the things along a ray are found; every way gives the same bits.
@@ -74,6 +74,28 @@ impl core::fmt::Display for Methods {
     }
 }
 
+impl core::str::FromStr for Methods {
+    type Err = String;
+
+    /// Reads what `Display` writes; what is not named is the default.
+    fn from_str(text: &str) -> Result<Self, String> {
+        let mut methods = Self::default();
+        for part in text.split(',').map(str::trim) {
+            let (name, word) = part.split_once(' ').unwrap_or((part, ""));
+            let choice: &mut dyn Choice = match name {
+                "accelerator" => &mut methods.accelerator,
+                "triangle" => &mut methods.triangle,
+                "sphere" => &mut methods.sphere,
+                "precision" => &mut methods.precision,
+                _ => return Err(format!("`{name}` is no choice of methods")),
+            };
+            let known = choice.words().iter().position(|known| *known == word);
+            choice.choose(known.ok_or_else(|| format!("`{word}` is none of {:?}", choice.words()))?);
+        }
+        Ok(methods)
+    }
+}
+
 impl Methods {
     /// The default methods without any tree: the oracle for them.
     pub const BRUTE_FORCE: Self = Self {
@@ -88,5 +110,23 @@ impl Methods {
     #[inline]
     pub fn is_default(&self) -> bool {
         *self == Self::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn methods_are_read_as_they_are_written() {
+        let (triangle, precision) = (TriangleTest::RayFrame, Precision::F32);
+        for methods in [Methods::default(), Methods::BRUTE_FORCE, Methods { triangle, precision, ..Methods::default() }]
+        {
+            assert_eq!(methods.to_string().parse(), Ok(methods));
+        }
+        assert_eq!("sphere Naive".parse(), Ok(Methods { sphere: SphereTest::Naive, ..Methods::default() }));
+        for wrong in ["", "sphere", "sphere naive", "speed Fast"] {
+            assert!(wrong.parse::<Methods>().is_err(), "{wrong}");
+        }
     }
 }

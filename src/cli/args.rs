@@ -273,6 +273,17 @@ pub(super) struct MethodArguments {
     precision: Option<Precision>,
 }
 
+impl From<Methods> for MethodArguments {
+    fn from(Methods { accelerator, triangle, sphere, precision }: Methods) -> Self {
+        Self {
+            accelerator: Some(accelerator),
+            triangle_test: Some(triangle),
+            sphere_test: Some(sphere),
+            precision: Some(precision),
+        }
+    }
+}
+
 impl MethodArguments {
     pub(super) fn methods(&self) -> Methods {
         Methods {

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{Picture, Region, Renderer};
 use clap::Args;
-use snell_components::{color::Encoding, settings::Settings};
+use snell_components::{color::Encoding, method::Methods, settings::Settings};
 use snell_systems::{
     compare::{self, Comparison},
     image::{self, Format, Metadata, key},
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 
 /// Draw a picture again from what its file tells, and compare
 ///
-/// A picture of snell holds its scene, its settings and the hash of its linear light. Ends with 0 if the scene gives the
+/// A picture of snell holds its scene, its settings, its methods and the hash of its linear light. Ends with 0 if the scene gives the
 /// same picture to the last bit, with 1 if it gives another, and with 2 if the file does not tell enough.
 #[derive(Args, Debug)]
 #[command(after_help = "\
@@ -50,14 +50,14 @@ pub(super) struct ReproArguments {
 pub(super) fn repro(renderer: &mut Renderer, args: &ReproArguments, console: &mut Console<'_>) -> Result<(), Failure> {
     let file = &args.picture;
     let (picture, told) = image::read(file).map_err(|why| Failure::Usage(why.to_string()))?;
-    let Told { scene, settings, region, hash } = Told::by(file, &told).map_err(Failure::Usage)?;
+    let Told { scene, settings, methods, region, hash } = Told::by(file, &told).map_err(Failure::Usage)?;
     let scene = args.scene.clone().unwrap_or(scene);
     if !scene.exists() {
         let message = format!("{}: the scene is not at `{}`: name it with --scene", file.display(), scene.display());
         return Err(Failure::Usage(message));
     }
     let changes = Changes { settings: Some(settings), ..Changes::default() };
-    let methods = MethodArguments::default();
+    let methods = MethodArguments::from(methods);
     let how = Drawing { scene, changes, time: None, region, threads: args.threads, methods, quiet: args.quiet };
     let drawn = draw(renderer, &how, console)?;
     if !drawn.frame.is_complete() {
@@ -91,6 +91,7 @@ pub(super) fn repro(renderer: &mut Renderer, args: &ReproArguments, console: &mu
 struct Told {
     scene: PathBuf,
     settings: Settings,
+    methods: Methods,
     region: Option<Region>,
     hash: String,
 }
@@ -112,6 +113,8 @@ impl Told {
                 _ => Err(fault("holds no sound region")),
             }
         });
+        let methods = metadata.get(key::METHODS).map_or(Ok(Methods::default()), str::parse);
+        let methods = methods.map_err(|why| fault(&format!("holds methods that are not known: {why}")))?;
         let text = told(key::SETTINGS)?;
         let mut reader = Renderer::new();
         let scene = format!("Scene(version: 1, settings: {text})");
@@ -119,7 +122,8 @@ impl Told {
             .load_text(&scene, key::SETTINGS)
             .map_err(|faults| fault(&format!("holds settings that are not known: {faults}")))?;
         let settings = reader.settings().clone();
-        Ok(Self { scene: told(key::SCENE)?.into(), settings, region: region.transpose()?, hash: told(key::HASH)? })
+        let (scene, region) = (told(key::SCENE)?.into(), region.transpose()?);
+        Ok(Self { scene, settings, methods, region, hash: told(key::HASH)? })
     }
 }
 

@@ -5,7 +5,7 @@
 use super::shared::shared;
 use crate::{
     bvh::{Box32, Bvh},
-    describe::{self, Describe, FieldVisitor, Spec, Value},
+    describe::Describe,
     math,
     method::{Accelerator, Methods},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
@@ -40,29 +40,19 @@ const MAX_RADIUS: f64 = 1e37;
 const LEAF: usize = 4;
 
 /// A ball that carries nine smaller ones, each of which carries nine, and so on.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct SphereFlake {
-    /// Of the largest ball, about the origin; object units.
+    /// Radius of the largest ball, about the origin; object units.
+    #[describe(positive, at_most(MAX_RADIUS))]
     pub radius: f64,
     /// How many times balls carry smaller ones: there are (9^(depth + 1) − 1) / 8 in all.
+    #[describe(within(0.0, MAX_DEPTH as f64), about = "how many times balls carry smaller ones")]
     pub depth: u32,
 }
 
 impl Default for SphereFlake {
     fn default() -> Self {
         Self { radius: 1.0, depth: 3 }
-    }
-}
-
-impl Describe for SphereFlake {
-    const TAG: &'static str = "SphereFlake";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let radius = Spec::positive("of the largest ball, object units");
-        let radius = Spec { range: describe::Range { max: MAX_RADIUS, ..radius.range }, ..radius };
-        fields.field("radius", Value::Number(&mut self.radius), radius);
-        let depth = Spec::within(0.0, f64::from(MAX_DEPTH), "how many times balls carry smaller ones");
-        fields.field("depth", Value::Integer(&mut self.depth), depth);
     }
 }
 

@@ -4,7 +4,7 @@
 //! the top, 1. Base and top carry the whole image in a square about the axis.
 
 use crate::{
-    describe::{Describe, Fault, FieldVisitor, Spec, Value},
+    describe::{Describe, Fault},
     math,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{Bounds, Ray},
@@ -14,13 +14,17 @@ use core::f64::consts::PI;
 use glam::{DAffine3, DVec2, DVec3};
 
 /// A solid cone or its stump about Oy, from y = 0 up.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
+#[describe(check = Self::agrees)]
 pub struct Cone {
-    /// At the base, object units.
+    /// Radius of the base, object units.
+    #[describe(not_negative, required)]
     pub radius: f64,
-    /// At the top, object units; 0 for a point.
+    /// Radius at the top, object units; 0 for a point.
+    #[describe(not_negative)]
     pub top: f64,
-    /// Object units.
+    /// Height, object units.
+    #[describe(positive, required)]
     pub height: f64,
 }
 
@@ -30,18 +34,9 @@ impl Default for Cone {
     }
 }
 
-impl Describe for Cone {
-    const TAG: &'static str = "Cone";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let radius = Spec::not_negative("radius of the base, object units").required();
-        fields.field("radius", Value::Number(&mut self.radius), radius);
-        let top = Spec::not_negative("radius at the top, object units; 0 for a point");
-        fields.field("top", Value::Number(&mut self.top), top);
-        fields.field("height", Value::Number(&mut self.height), Spec::positive("height, object units").required());
-    }
-
-    fn check(&self) -> Result<(), Fault> {
+impl Cone {
+    /// Whether the fields go together.
+    fn agrees(&self) -> Result<(), Fault> {
         if self.radius == 0.0 && self.top == 0.0 {
             return Err(Fault::new("radius", "more than 0 here or at the `top`"));
         }

@@ -2,7 +2,7 @@
 
 use super::cone::{Cone, PackedCone};
 use crate::{
-    describe::{Describe, FieldVisitor, Spec, Value},
+    describe::Describe,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::Ray,
 };
@@ -10,26 +10,19 @@ use bevy_ecs::prelude::*;
 use glam::DAffine3;
 
 /// A solid cylinder about Oy, from y = 0 up.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct Cylinder {
-    /// Object units.
+    /// Radius, object units.
+    #[describe(positive, required)]
     pub radius: f64,
-    /// Object units.
+    /// Height, object units.
+    #[describe(positive, required)]
     pub height: f64,
 }
 
 impl Default for Cylinder {
     fn default() -> Self {
         Self { radius: 1.0, height: 1.0 }
-    }
-}
-
-impl Describe for Cylinder {
-    const TAG: &'static str = "Cylinder";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("radius", Value::Number(&mut self.radius), Spec::positive("radius, object units").required());
-        fields.field("height", Value::Number(&mut self.height), Spec::positive("height, object units").required());
     }
 }
 

@@ -7,7 +7,7 @@ use super::{mesh_methods::OtherTrees, mesh_tree::MeshTree, shear::RayFrame};
 use crate::{
     asset::Asset,
     choice,
-    describe::{Describe, FieldVisitor, Spec, Value},
+    describe::Describe,
     method::Methods,
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Bounds, Ray},
@@ -246,9 +246,10 @@ choice! {
 }
 
 /// A triangle mesh from a file.
-#[derive(Component, Clone, Debug, Default)]
+#[derive(Component, Clone, Debug, Default, Describe)]
 pub struct Mesh {
-    /// The model.
+    /// OBJ file, relative to the scene's.
+    #[describe(required)]
     pub model: Asset<TriangleMesh>,
     /// Which triangles are smoothed.
     pub shading: Shading,
@@ -265,16 +266,6 @@ impl Mesh {
     #[must_use]
     pub fn smooth(self) -> Self {
         Self { shading: Shading::Smooth, ..self }
-    }
-}
-
-impl Describe for Mesh {
-    const TAG: &'static str = "Mesh";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        let about = "OBJ file, relative to the scene's";
-        fields.field("model", Value::Model(&mut self.model), Spec::any(about).required());
-        fields.field("shading", Value::Choice(&mut self.shading), Spec::any("which triangles are smoothed"));
     }
 }
 

@@ -4,7 +4,7 @@
 //! highest, 1.
 
 use crate::{
-    describe::{Describe, FieldVisitor, Spec, Value},
+    describe::Describe,
     math,
     method::{Methods, Precision, SphereTest},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
@@ -16,23 +16,16 @@ use core::f64::consts::PI;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 /// A sphere about the origin of its object space.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Component, Clone, Debug, PartialEq, Describe)]
 pub struct Sphere {
-    /// Object units, more than zero.
+    /// Radius, object units.
+    #[describe(positive, required)]
     pub radius: f64,
 }
 
 impl Default for Sphere {
     fn default() -> Self {
         Self { radius: 1.0 }
-    }
-}
-
-impl Describe for Sphere {
-    const TAG: &'static str = "Sphere";
-
-    fn describe(&mut self, fields: &mut dyn FieldVisitor) {
-        fields.field("radius", Value::Number(&mut self.radius), Spec::positive("radius, object units").required());
     }
 }
 

@@ -17,16 +17,21 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 pub(super) fn check<P: Primitive + Clone>(shape: &P, name: &str, watch: &Watch, report: &mut Report) {
     check_extremes(shape, name, watch, report);
-    let fields = fields_of(shape.clone());
+    check_text(shape, Kind::Shape, name, report);
+}
+
+/// Writes a component as a scene file has it and reads it again, sound and with faults.
+pub(super) fn check_text<C: Describe + Component>(component: &C, kind: Kind, name: &str, report: &mut Report) {
+    let fields = fields_of(component.clone());
     if fields.iter().any(|field| field.text.is_none()) {
         // Models and images lie in files; nothing in memory names them.
         return;
     }
     let written = |fields: &[Field]| {
         let fields = fields.iter().filter_map(|field| Some(format!("{}: {}", field.name, field.text.as_ref()?)));
-        format!("{}({})", P::TAG, fields.collect::<Vec<_>>().join(", "))
+        format!("{}({})", C::TAG, fields.collect::<Vec<_>>().join(", "))
     };
-    let mut compare = |fields: &[Field], read: Result<Option<P>, Faults>| match read {
+    let mut compare = |fields: &[Field], read: Result<Option<C>, Faults>| match read {
         Err(faults) => report.add("text", name, format!("`{}` is not read: {faults}", written(fields))),
         Ok(None) => report.add("text", name, "the component is not on its entity"),
         Ok(Some(read)) => {
@@ -37,18 +42,18 @@ pub(super) fn check<P: Primitive + Clone>(shape: &P, name: &str, watch: &Watch, 
             }
         }
     };
-    compare(&fields, read(&written(&fields)));
+    compare(&fields, read(&written(&fields), kind));
     // Other numbers than those at hand: a field that is not read may have its value by chance.
     let others: Vec<_> = fields.iter().map(Field::with_another_number).collect();
-    let read_others = read(&written(&others));
+    let read_others = read(&written(&others), kind);
     // They may not go together.
     if read_others.is_ok() {
         compare(&others, read_others);
     }
-    check_faults::<P>(&fields, name, report);
+    check_faults::<C>(&fields, kind, name, report);
 }
 
-/// One field of a shape.
+/// One field of a component.
 #[derive(Clone)]
 struct Field {
     name: &'static str,
@@ -102,26 +107,26 @@ fn text(value: &Value<'_>) -> Option<String> {
 }
 
 /// Reads a component from a scene.
-fn read<P: Primitive + Clone>(component: &str) -> Result<Option<P>, Faults> {
+fn read<C: Describe + Component>(component: &str, kind: Kind) -> Result<Option<C>, Faults> {
     let mut world = World::new();
     let mut registry = Registry::default();
-    registry.register::<P>(Kind::Shape);
+    registry.register::<C>(kind);
     world.insert_resource(registry);
     world.insert_resource(Settings::default());
     let scene = format!("Scene(version: 1, entities: {{\n\"it\": [{component}]}})");
     load::read_scene_text(&mut world, &scene, "conformance.ron".as_ref())?;
-    Ok(world.query::<&P>().iter(&world).next().cloned())
+    Ok(world.query::<&C>().iter(&world).next().cloned())
 }
 
 /// Misspells, leaves out and spoils fields.
-fn check_faults<P: Primitive + Clone>(fields: &[Field], name: &str, report: &mut Report) {
+fn check_faults<C: Describe + Component>(fields: &[Field], kind: Kind, name: &str, report: &mut Report) {
     let component = |change: &dyn Fn(&Field) -> Option<(String, String)>| {
         let fields = fields.iter().filter_map(change).map(|(name, text)| format!("{name}: {text}"));
-        format!("{}({})", P::TAG, fields.collect::<Vec<_>>().join(", "))
+        format!("{}({})", C::TAG, fields.collect::<Vec<_>>().join(", "))
     };
     let kept = |field: &Field| Some((field.name.to_owned(), field.text.clone()?));
     let mut expect = |component: &str, words: &[&str]| {
-        let what = match read::<P>(component) {
+        let what = match read::<C>(component, kind) {
             Ok(_) => format!("`{component}` is read without a fault"),
             Err(faults) => {
                 let told = faults.to_string();

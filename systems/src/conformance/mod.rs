@@ -1,4 +1,4 @@
-//! A suite for shapes: whether a [`Primitive`] keeps its contract.
+//! A suite for shapes, lights and patterns: whether a [`Primitive`], a [`Light`] or a [`Texture`] keeps its contract.
 //!
 //! ```
 //! use snell_components::shape::Sphere;
@@ -25,15 +25,29 @@
 //! | `extremes` | the least and greatest values of every number give a shape, or an error, never a panic |
 //! | `text` | its fields can be read from a scene file as they were written |
 //! | `faults` | misspelt, missing and wrong fields are told with their place |
+//!
+//! [`check_light`] and [`check_texture`] try lights and patterns at points near and far; `text`, `faults` and `ends` are
+//! checked as for shapes, and:
+//!
+//! | check | what must hold |
+//! |---|---|
+//! | `light` | light comes from somewhere, and no channel is less than zero or not a number |
+//! | `pattern` | the same of colours |
+//! | `brightest` | nothing is brighter than is told |
+//! | `repeatable` | the same question has the same answer |
+//! | `placement` | a light that is moved and turned gives the same light at the points moved and turned |
+//! | `footprint` | a colour that depends on the footprint says so |
 
 mod case;
 mod closed;
 mod fields;
 mod geometry;
+mod shades;
 mod watch;
 
+use crate::registry::Kind;
 use case::Case;
-use snell_components::primitive::Primitive;
+use snell_components::{describe::Describe, light::Light, primitive::Primitive, texture::Texture};
 use std::fmt;
 use watch::{PATIENCE, Watch, watched};
 
@@ -112,7 +126,7 @@ pub fn check<P: Primitive + Clone>(shapes: &[P], form: Form) -> Report {
 fn check_all<P: Primitive + Clone>(shapes: &[P], form: Form, watch: &Watch) -> Report {
     let mut report = Report::default();
     for (number, shape) in shapes.iter().enumerate() {
-        let name = if shapes.len() == 1 { P::TAG.to_owned() } else { format!("{} {}", P::TAG, number + 1) };
+        let name = name::<P>(number, shapes.len());
         let cases = Case::all(shape, &name, watch, &mut report);
         for case in &cases {
             geometry::check(case, &mut report);
@@ -124,4 +138,37 @@ fn check_all<P: Primitive + Clone>(shapes: &[P], form: Form, watch: &Watch) -> R
         fields::check(shape, &name, watch, &mut report);
     }
     report
+}
+
+/// What one of several is called.
+fn name<D: Describe>(number: usize, of: usize) -> String {
+    if of == 1 { D::TAG.to_owned() } else { format!("{} {}", D::TAG, number + 1) }
+}
+
+/// Checks lights of one type, which shine somewhere near the origin.
+pub fn check_light<L: Light>(lights: &[L]) -> Report {
+    let lights = lights.to_vec();
+    watched(PATIENCE, move |watch| {
+        let mut report = Report::default();
+        for (number, light) in lights.iter().enumerate() {
+            let name = name::<L>(number, lights.len());
+            shades::check_light(light, &name, watch, &mut report);
+            fields::check_text(light, Kind::Light, &name, &mut report);
+        }
+        report
+    })
+}
+
+/// Checks patterns of one type.
+pub fn check_texture<T: Texture>(textures: &[T]) -> Report {
+    let textures = textures.to_vec();
+    watched(PATIENCE, move |watch| {
+        let mut report = Report::default();
+        for (number, texture) in textures.iter().enumerate() {
+            let name = name::<T>(number, textures.len());
+            shades::check_texture(texture, &name, watch, &mut report);
+            fields::check_text(texture, Kind::Texture, &name, &mut report);
+        }
+        report
+    })
 }

@@ -21,7 +21,7 @@ struct Asked {
     /// How many questions there were.
     number: u64,
     shape: String,
-    /// None while it is packed.
+    /// None if it was asked without one.
     ray: Option<Ray>,
 }
 
@@ -63,7 +63,7 @@ pub(super) fn watched(patience: Duration, checks: impl FnOnce(&Watch) -> Report 
             Err(mpsc::RecvTimeoutError::Timeout) => {
                 let asked = watch.last();
                 if asked.number == seen {
-                    let what = asked.ray.map_or("packing it".into(), |ray| format!("{ray:?}: its `hit` or `surface`"));
+                    let what = asked.ray.map_or("it".into(), |ray| format!("{ray:?}: its `hit` or `surface`"));
                     let mut report = Report::default();
                     report.add("ends", &asked.shape, format!("{what} took more than {patience:?}"));
                     return report;

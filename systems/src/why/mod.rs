@@ -25,5 +25,6 @@ pub fn why(snapshot: &Snapshot, x: u32, y: u32) -> RayTree {
     let shown = light.as_vec3();
     let pixel = if shown.is_finite() { shown.to_array() } else { [0.0; 3] };
     let (samples, shares) = recorder.finish();
-    RayTree { x, y, width, height, light: light.to_array(), pixel, samples, shares }
+    let encoding = snapshot.settings.encoding;
+    RayTree { x, y, width, height, encoding, light: light.to_array(), pixel, samples, shares }
 }

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::render::{Added, Dropped, Way};
 use core::fmt::{self, Write};
+use snell_components::color::Encoding;
 
 const ROW: usize = 46;
 const STEP: usize = 34;
@@ -22,7 +23,7 @@ impl RayTree {
     /// ray and all that it leads to bring to the pixel; lines are as wide as the light that goes along them weighs.
     #[must_use]
     pub fn svg(&self) -> String {
-        let mut drawing = Drawing::default();
+        let mut drawing = Drawing { encoding: self.encoding, ..Drawing::default() };
         for (number, sample) in self.samples.iter().enumerate() {
             // A string takes everything that is written to it.
             let _ = drawing.sample(sample, (self.samples.len() > 1).then_some(number + 1));
@@ -48,6 +49,7 @@ impl RayTree {
 
 #[derive(Default)]
 struct Drawing {
+    encoding: Encoding,
     lines: String,
     rows: String,
     row: usize,
@@ -75,7 +77,7 @@ impl Drawing {
             let own = sample.contributions.iter().filter(|part| part.ray == i && part.what != Added::BeyondDepth);
             let amount = own.fold([0.0; 3], |sum, part| [0, 1, 2].map(|c| sum[c] + part.amount[c]));
             let color = whole.get(i).map_or([0.0; 3], |light| light.map(|channel| channel as f32));
-            self.swatch((x, y), &hex_of(color))?;
+            self.swatch((x, y), &hex_of(color, self.encoding))?;
             let (title, detail) = told(ray);
             let own = if amount == [0.0; 3] { String::new() } else { format!("brings {}", short(&amount)) };
             let weight = format!("weight {}", short(&ray.weight_at_end));

@@ -2,10 +2,11 @@
 
 use super::tree::{DroppedRay, LampLight, Met, RayTree, Sample, Start, Term, Thing, TracedRay};
 use crate::{
-    image::srgb8,
+    image::levels8,
     render::{Added, Dropped, Picture, Way},
 };
 use core::fmt::{self, Display, Formatter};
+use snell_components::color::Encoding;
 
 /// Columns by which what a ray leads to is indented, and the most there are.
 const INDENT: usize = 2;
@@ -148,12 +149,12 @@ fn place(thing: &Thing) -> String {
 
 /// The colour that is shown, as in `#rrggbb`.
 pub(super) fn hex(tree: &RayTree) -> String {
-    hex_of(tree.pixel)
+    hex_of(tree.pixel, tree.encoding)
 }
 
-/// Linear light as the colour that shows it.
-pub(super) fn hex_of(light: [f32; 3]) -> String {
-    let levels = srgb8(&Picture { width: 1, height: 1, pixels: vec![light] });
+/// Light as the colour that shows it.
+pub(super) fn hex_of(light: [f32; 3], encoding: Encoding) -> String {
+    let levels = levels8(&Picture { width: 1, height: 1, pixels: vec![light] }, encoding);
     let [r, g, b] = levels.first().copied().unwrap_or_default();
     format!("#{r:02x}{g:02x}{b:02x}")
 }

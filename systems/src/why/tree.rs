@@ -4,7 +4,8 @@ use crate::render::{Added, Dropped, Way};
 use bevy_ecs::prelude::*;
 use serde::{Serialize, Serializer};
 use snell_components::{
-    color::Rgb,
+    color::{Encoding, Rgb},
+    describe::Choice,
     name::Name,
     written::{Line, WrittenAt},
 };
@@ -23,6 +24,9 @@ pub struct RayTree {
     pub width: u32,
     /// Rows of the picture.
     pub height: u32,
+    /// What the numbers of the scene's colours, and of the picture's file, mean.
+    #[serde(serialize_with = "word")]
+    pub encoding: Encoding,
     /// The light of the pixel: the sum of the samples' light times their shares.
     pub light: [f64; 3],
     /// The pixel as it is in the picture.
@@ -257,4 +261,9 @@ impl RayTree {
             ray.start.effect.iter_mut().chain(met).chain(terms).chain(sent)
         })
     }
+}
+
+/// A word of a choice.
+fn word<S: Serializer>(choice: &impl Choice, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(choice.words().get(choice.position()).copied().unwrap_or_default())
 }

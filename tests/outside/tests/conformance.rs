@@ -1,8 +1,8 @@
 //! The torus keeps the contract of shapes.
 
-use outside::Torus;
+use outside::{Beam, Grain, Stripes, Torus};
 use snell::{
-    conformance::{Form, check},
+    conformance::{Form, check, check_light, check_texture},
     prelude::*,
 };
 
@@ -31,4 +31,21 @@ fn what_is_no_ring_has_no_surface_and_the_reason_is_told() {
         let expected = "its minor: expected from a millionth of `major` to `major`";
         assert!(why.is_some_and(|why| why.0 == expected) || major <= 0.0, "{major} {minor}");
     }
+}
+
+#[test]
+fn the_light_and_the_patterns_do() {
+    for beam in ["Beam(radius: 3)", "Beam(position: (0, 5, 0), direction: (1, -2, 0), radius: 2.5, intensity: 0.6)"] {
+        check_light(&[read::<Beam>(beam)]).assert();
+    }
+    check_texture(&[read::<Stripes>("Stripes"), read("Stripes(a: (1, 0.5, 0.25), b: 2, width: 0.3)")]).assert();
+    check_texture(&[read::<Grain>("Grain(a: 0.25, b: (1, 0, 0), size: 0.7)")]).assert();
+}
+
+/// A component as a scene file has it.
+fn read<C: Component + Clone>(text: &str) -> C {
+    let mut renderer = outside::renderer();
+    renderer.load_text(&format!("(version: 1, entities: {{\"it\": [{text}]}})"), "it.ron").expect("sound");
+    let mut all = renderer.world.query::<&C>();
+    all.single(&renderer.world).expect("one").clone()
 }
