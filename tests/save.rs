@@ -117,3 +117,31 @@ fn what_no_file_can_say_is_told() {
     assert!(told.contains("\"sail\": Mesh.model: it was made in memory"), "{told}");
     assert!(told.contains("\"hole\": Sphere.radius: NaN is not a number"), "{told}");
 }
+
+#[test]
+fn what_can_be_said_is_kept_though_other_things_cannot() {
+    let mut renderer = Renderer::new();
+    renderer.add("camera", Camera::at([0.0, 0.0, 5.0]));
+    let corners = vec![[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let model = TriangleMesh::new(corners, vec![[0, 1, 2]]).expect("a mesh");
+    renderer.add("made", (Mesh::new(model), Color::srgb(0x4080c0)));
+    renderer
+        .add("ball", (Sphere { radius: 0.5 }, PointLight { intensity: Rgb::splat(f64::NAN), ..PointLight::default() }));
+    renderer.add("ball", Sphere { radius: 9.0 });
+    let registry = renderer.world.resource::<Registry>();
+    let (kept, lost) = Scene::of(&renderer.world).to_text_in_part(registry);
+    let lost = lost.to_string();
+    for what in ["\"made\": Mesh.model: it was made in memory", "\"ball\": PointLight.intensity", "\"ball\": names"] {
+        assert!(lost.contains(what), "{lost}");
+    }
+    assert_eq!(lost.lines().count(), 3, "{lost}");
+    assert!(text(&renderer).is_err());
+    let again = loaded(|renderer| renderer.load_text(&kept, "kept.ron"));
+    let expected = [
+        r#""camera": [Camera(position: (0, 0, 5))],"#,
+        r##""made": [Color("#4080c0")],"##,
+        r#""ball": [Sphere(0.5), PointLight(position: (0, 0, 0))],"#,
+    ];
+    assert!(expected.iter().all(|line| kept.contains(line)) && !kept.contains("Sphere(9)"), "{kept}");
+    assert_eq!(text(&again), Ok(kept));
+}

@@ -76,7 +76,9 @@ fn run(receiver: &Receiver<Message>, registry: &Registry) {
         for (number, message) in messages.into_iter().enumerate() {
             match message {
                 Message::Keep(place, scene) if Some(number) == last => {
-                    if let (Ok(text), Some(folder)) = (scene.to_text(registry), place.parent())
+                    // What no file can say would be lost with everything else otherwise.
+                    let (text, _) = scene.to_text_in_part(registry);
+                    if let Some(folder) = place.parent()
                         && fs::create_dir_all(folder).is_ok()
                     {
                         // A folder that cannot be written leaves the scene without a net, as editors without one are.

@@ -87,6 +87,12 @@ impl Scene {
     pub fn to_text(&self, registry: &Registry) -> Result<String, save::Unsayable> {
         save::scene_text(self, registry)
     }
+
+    /// The same without what no scene file can say, and all of that: what there is to keep of any scene.
+    #[must_use]
+    pub fn to_text_in_part(&self, registry: &Registry) -> (String, save::Unsayable) {
+        save::scene_text_in_part(self, registry)
+    }
 }
 
 /// A name for every entity, given in the order of everything.

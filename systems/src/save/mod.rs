@@ -6,7 +6,7 @@
 mod text;
 mod value;
 
-pub use text::scene_text;
+pub use text::{scene_text, scene_text_in_part};
 pub use value::{Written, color_text, fields, same};
 
 use core::fmt;

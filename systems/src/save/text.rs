@@ -19,6 +19,13 @@ const WIDTH: usize = 120;
 /// # Errors
 /// All that no scene file can say.
 pub fn scene_text(scene: &Scene, registry: &Registry) -> Result<String, Unsayable> {
+    let (text, faults) = scene_text_in_part(scene, registry);
+    if faults.0.is_empty() { Ok(text) } else { Err(faults) }
+}
+
+/// The text of a scene without what no scene file can say, and all of that.
+#[must_use]
+pub fn scene_text_in_part(scene: &Scene, registry: &Registry) -> (String, Unsayable) {
     let mut faults = Unsayable::default();
     let mut text = String::from("Scene(\n    version: 1,\n");
     let settings = written_settings(&scene.settings, &mut faults);
@@ -30,13 +37,14 @@ pub fn scene_text(scene: &Scene, registry: &Registry) -> Result<String, Unsayabl
     for (name, thing) in scene.things.iter().filter(|(name, _)| !is_of_model(name)) {
         if name.as_str().is_empty() || !seen.insert(name) {
             faults.0.push(format!("{:?}: names have at least one character and each stands once", name.as_str()));
+            continue;
         }
         let key = quoted(name.as_str()).unwrap_or_default();
         let components = components(name, thing, (registry, scene.settings.encoding), &mut faults);
         text += &wrapped(&format!("        {key}: ["), &components, "],\n", "            ");
     }
     text += "    },\n)\n";
-    if faults.0.is_empty() { Ok(text) } else { Err(faults) }
+    (text, faults)
 }
 
 /// Items on one line, or if that is too long on a line each.
@@ -92,7 +100,7 @@ fn components(
     parts.sort_by_key(|(kind, component, _)| (*kind, component.tag()));
     let mut texts: Vec<_> = parts
         .into_iter()
-        .map(|(_, component, entry)| {
+        .filter_map(|(_, component, entry)| {
             let subject = format!("{:?}: {}", name.as_str(), component.tag());
             let default = fields((entry.new)().as_ref(), encoding);
             component_text(component.tag(), &fields(component, encoding), &default, &subject, faults)
@@ -114,25 +122,21 @@ fn components(
     texts
 }
 
-/// A component: its tag and those fields that are to be given.
+/// A component: its tag and those fields that are to be given; nothing if one of these cannot be said.
 fn component_text(
     tag: &str,
     written: &[Written],
     default: &[Written],
     subject: &str,
     faults: &mut Unsayable,
-) -> String {
-    if let [only] = written
-        && only.required
-    {
-        return match &only.text {
-            Ok(text) => format!("{tag}({text})"),
-            Err(why) => {
-                faults.0.push(format!("{subject}.{}: {why}", only.name));
-                String::new()
-            }
-        };
-    }
+) -> Option<String> {
     let stated = named(written, default, subject, faults);
-    if stated.is_empty() { tag.into() } else { format!("{tag}({})", stated.join(", ")) }
+    if written.iter().any(|field| field.required && field.text.is_err()) {
+        return None;
+    }
+    Some(match written {
+        [Written { text: Ok(only), required: true, .. }] => format!("{tag}({only})"),
+        _ if stated.is_empty() => tag.into(),
+        _ => format!("{tag}({})", stated.join(", ")),
+    })
 }
