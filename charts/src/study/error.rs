@@ -20,6 +20,8 @@ use snell_systems::{
 /// In 255ths.
 const ERRORS: [u32; 5] = [1, 2, 4, 8, 16];
 
+const ERRORS_OF_A_LOOK: [u32; 2] = [1, 4];
+
 /// The share of pixels that is to keep the error: two standard errors.
 const CONFIDENCE: f64 = 0.95;
 
@@ -28,7 +30,7 @@ const GRIDS: [u32; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
 
 pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindrance> {
     let Settings { width, height, .. } = scene.settings();
-    let finest = if effort.quick { 24 } else { 48 };
+    let finest = if effort.quick { 32 } else { 48 };
     let reference = scene.at_its_size(|world| {
         scene::converge_lights(world, 16);
         let settings = &mut *world.resource_mut::<Settings>();
@@ -61,7 +63,7 @@ pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindranc
     ]);
     let (mut cuts, mut bounds, mut found) = (vec![], vec![], vec![]);
     let (mut kept_everywhere, mut proved, mut shares) = (true, true, vec![]);
-    let errors = if effort.quick { &ERRORS[2..4] } else { &ERRORS[..] };
+    let errors = if effort.quick { &ERRORS_OF_A_LOOK[..] } else { &ERRORS[..] };
     for &in_255ths in errors {
         let error = f64::from(in_255ths) / 255.0;
         let with_error = scene.at_its_size(|world| {
@@ -155,7 +157,7 @@ const BLOCK: u32 = 8;
 
 /// Blocks of pixels that are spread over a picture; the whole picture if it is as small.
 fn blocks(width: u32, height: u32, effort: Effort) -> Vec<Region> {
-    let (across, down) = if effort.quick { (3, 2) } else { (5, 4) };
+    let (across, down) = if effort.quick { (4, 3) } else { (5, 4) };
     if width <= across * BLOCK || height <= down * BLOCK {
         return vec![Region::whole(width, height)];
     }

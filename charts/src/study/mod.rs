@@ -94,24 +94,28 @@ impl Found {
     }
 }
 
-/// One table of what a study of errors found in several scenes.
+/// What studies found in several scenes, in one table each: whether errors are kept, and whether the defaults lie on the
+/// Pareto front.
 #[must_use]
-pub fn side_by_side(found: &[Found]) -> Option<Found> {
-    let of_error: Vec<_> = found.iter().filter(|found| found.name.ends_with("-error")).collect();
-    let first = of_error.first().filter(|_| of_error.len() > 1)?;
-    let mut table = Table { columns: vec!["scene".into()], rows: vec![] };
-    table.columns.extend(first.table.columns.iter().cloned());
-    for study in &of_error {
-        let scene = study.about.as_deref().unwrap_or_default();
-        let row = |row: &Vec<Cell>| core::iter::once(scene.into()).chain(row.iter().cloned()).collect();
-        table.rows.extend(study.table.rows.iter().map(row));
+pub fn side_by_side(found: &[Found]) -> Vec<Found> {
+    let of = |end: &str| found.iter().filter(|found| found.about.is_some() && found.name.ends_with(end)).collect();
+    let (errors, settings): (Vec<&Found>, Vec<&Found>) = (of("-error"), of("-settings"));
+    let mut all = vec![];
+    if let Some(first) = errors.first().filter(|_| errors.len() > 1) {
+        let mut table = Table { columns: vec!["scene".into()], rows: vec![] };
+        table.columns.extend(first.table.columns.iter().cloned());
+        for study in &errors {
+            let scene = study.about.as_deref().unwrap_or_default();
+            let row = |row: &Vec<Cell>| core::iter::once(scene.into()).chain(row.iter().cloned()).collect();
+            table.rows.extend(study.table.rows.iter().map(row));
+        }
+        let title = "All scenes: whether the error is kept";
+        all.push(Found { name: "errors".into(), title: title.into(), table, ..Found::default() });
     }
-    Some(Found {
-        name: "errors".into(),
-        title: "All scenes: whether the error is kept".into(),
-        table,
-        ..Found::default()
-    })
+    if settings.len() > 1 {
+        all.push(settings::defaults_of_all(&settings));
+    }
+    all
 }
 
 /// Why a study cannot be done.
