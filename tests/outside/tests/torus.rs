@@ -2,7 +2,7 @@
 //! instances, bounds, picking.
 
 use outside::Torus;
-use snell::{Faults, Snapshot, components::space::BoundingSphere, prelude::*, why};
+use snell::{Faults, Snapshot, components::space::BoundingSphere, prelude::*, systems::registry::Registry, why};
 use std::sync::Arc;
 
 const SCENE: &str = include_str!("../scenes/torus.ron");
@@ -197,4 +197,46 @@ fn its_fields_are_checked_like_those_of_the_built_in_shapes() {
     assert!(tag.contains("did you mean `Torus`"), "{tag}");
     let twice = faults("Torus(", "Sphere(radius: 1), Torus(");
     assert!(twice.contains("an entity has one shape at most"), "{twice}");
+}
+
+/// Sets numbers by name and notes what it sees, as an inspector or bindings to another language do.
+struct ByName<'a>(&'a [(&'a str, f64)], Vec<String>);
+
+impl FieldVisitor for ByName<'_> {
+    fn field(&mut self, name: &'static str, value: Value<'_>, spec: Spec) {
+        let Value::Number(place) = value else { panic!("numbers only") };
+        if let Some((_, number)) = self.0.iter().find(|(known, _)| *known == name) {
+            assert!(spec.range.contains(*number));
+            *place = *number;
+        }
+        let need = if spec.required { ", required" } else { "" };
+        self.1.push(format!("{name} = {place}: {}, {:e} to {:e}{need}", spec.about, spec.range.min, spec.range.max));
+    }
+}
+
+#[test]
+fn who_knows_nothing_but_names_can_make_it_and_show_its_fields() {
+    let mut renderer = outside::renderer();
+    let entry = *renderer.world.resource::<Registry>().get("Torus").expect("a tag");
+    let mut component = (entry.new)();
+    let mut fields = ByName(&[("major", 1.0), ("minor", 0.35)], vec![]);
+    component.visit(&mut fields);
+    assert_eq!(
+        fields.1,
+        [
+            "major = 1: radius of the ring, object units, 1e-9 to 1e9, required",
+            "minor = 0.35: radius of the tube, object units, 1e-9 to 1e9, required"
+        ]
+    );
+    component.validate().expect("a ring");
+    let entity = renderer.add("ring", ()).id();
+    component.insert(&mut renderer.world.entity_mut(entity));
+    renderer.add("camera", Camera::at([0.0, 3.0, 4.0]).looking_at([0.0, 0.0, 0.0]));
+    renderer.set_size(60, 40);
+    let snapshot = renderer.snapshot().expect("a scene");
+    assert!((0..60).any(|x| pick(&snapshot, x, 25).1.is_some_and(|(name, _)| name == "ring")));
+    // And what is wrong between fields is told at one of them.
+    component = (entry.new)();
+    component.visit(&mut ByName(&[("major", 1.0), ("minor", 2.0)], vec![]));
+    assert_eq!(component.validate().map_err(|fault| fault.field), Err("minor"));
 }
