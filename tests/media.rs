@@ -72,6 +72,28 @@ fn no_light_comes_from_infinitely_far_through_what_absorbs() {
     assert_near(seen(&snapshot, DVec3::NEG_Y, DVec3::Y), left(TINT, 1.0));
 }
 
+#[test]
+fn what_is_opaque_blocks_a_light_though_something_clear_coincides_with_it() {
+    let lit_floor = |blocked: bool| {
+        let snapshot = scene(Settings::default(), |world| {
+            let (cube, above) = (Cuboid { size: DVec3::splat(2.0) }, Transform::at(DVec3::Y * 2.0));
+            world.spawn((Name::new("floor"), Plane {}, Diffuse(Rgb::ONE)));
+            world.spawn(PointLight { position: DVec3::Y * 5.0, ..PointLight::default() });
+            // First in the order of names, so that of equal distances its surface is the one that is met.
+            world.spawn((Name::new("a"), cube.clone(), above.clone(), Transmission(Rgb::ONE)));
+            if blocked {
+                world.spawn((Name::new("b"), cube, above, Diffuse(Rgb::ONE)));
+            }
+        });
+        traced(&snapshot, DVec3::Y * 0.5, DVec3::NEG_Y)
+    };
+    let (light, counts) = lit_floor(true);
+    assert_eq!((light, counts.shadow), (Rgb::ZERO, 1));
+    // One ray more for each surface passed.
+    let (light, counts) = lit_floor(false);
+    assert_eq!((light, counts.shadow), (Rgb::ONE, 3));
+}
+
 /// Water in glass: on the axis of both.
 fn nested() -> Snapshot {
     scene(Settings::default(), |world| {

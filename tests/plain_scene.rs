@@ -30,7 +30,7 @@ fn a_plain_scene_takes_a_ray_and_a_shadow_ray_for_each_pixel_and_nothing_else() 
 fn absent_effects_take_no_byte_of_the_snapshot() {
     let snapshot = plain().snapshot().expect("a snapshot");
     let materials = &snapshot.materials;
-    assert!(materials.media.is_empty() && !materials.any_transparent);
+    assert!(materials.media.is_empty() && !materials.any_transparent && snapshot.parted.is_none());
     assert_eq!(snapshot.lights.lamps.len(), 1);
     // The first is that of objects without one.
     let [_, floor] = &materials.all[..] else { panic!("{} materials", materials.all.len()) };
