@@ -113,3 +113,43 @@ fn the_sphere_tree_is_a_list_where_triangles_are_large() {
     let (spheres, boxes, brute) = soup(10.0);
     assert!(spheres > 0.5 * brute && boxes < 0.5 * spheres, "large triangles: {spheres} and {boxes} of {brute}");
 }
+
+/// F39. A height field of 4050 triangles a ten-thousandth large, with two triangles of ten beside it: a tree must not cost
+/// more than two and a half times what the field alone does.
+#[test]
+fn a_teapot_in_a_stadium_costs_little_more_than_the_teapot() {
+    let patch = |stadium: bool| {
+        let mut random = support::random::Random::new(9);
+        let (along, size) = (46u32, 1e-4);
+        let mut positions = vec![];
+        for i in 0..along * along {
+            let at = |n: u32| (f64::from(n) / f64::from(along - 1) - 0.5) * size;
+            positions.push(DVec3::new(at(i % along), 0.02 * size * random.unit(), at(i / along)).as_vec3().to_array());
+        }
+        let mut triangles = vec![];
+        for i in (0..along * (along - 1)).filter(|i| i % along != along - 1) {
+            triangles.extend([[i, i + along, i + 1], [i + 1, i + along, i + along + 1]]);
+        }
+        assert_eq!(triangles.len(), 4050);
+        if stadium {
+            let n = positions.len() as u32;
+            positions.extend([[-5.0, -1e-5, -5.0], [5.0, -1e-5, -5.0], [5.0, -1e-5, 5.0], [-5.0, -1e-5, 5.0]]);
+            triangles.extend([[n, n + 2, n + 1], [n, n + 3, n + 2]]);
+        }
+        let mut renderer = Renderer::new();
+        let eye = DVec3::new(0.2, 0.9, 0.8) * size;
+        renderer.world.spawn(Camera { position: eye, target: Some(DVec3::ZERO), ..Camera::default() });
+        *renderer.settings() = Settings { width: 64, height: 48, ..Settings::default() };
+        renderer.world.spawn(Mesh::new(TriangleMesh::new(positions, triangles).expect("a mesh")));
+        let snapshot = renderer.snapshot().expect("a snapshot");
+        let tests = |accelerator| {
+            let methods = Methods { accelerator, ..Methods::default() };
+            let counts = render(&snapshot, &Options { methods, ..Options::default() }).counts;
+            (counts.nodes + counts.primitives) as f64 / counts.rays() as f64
+        };
+        (tests(Accelerator::Tree), tests(Accelerator::BruteForce))
+    };
+    let ((alone, _), (beside, brute)) = (patch(false), patch(true));
+    assert!(beside <= 2.5 * alone, "{beside} tests a ray, {alone} without the stadium");
+    assert!(brute > 100.0 * beside, "a list: {brute}");
+}

@@ -57,6 +57,12 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
         Self::surface(packed, ray, hit)
     }
 
+    /// The way from the point of a hit to the curved surface above it that interpolated normals tell of, on the side from
+    /// which the ray comes; nothing where normals are not interpolated. Rays to lights start there.
+    fn lift(_packed: &Self::Packed, _ray: &Ray, _hit: Hit) -> DVec3 {
+        DVec3::ZERO
+    }
+
     /// A sphere that holds the shape; by default the one about the bounds.
     fn bounding_sphere(_packed: &Self::Packed, bounds: &Bounds) -> BoundingSphere {
         BoundingSphere::of_bounds(bounds)

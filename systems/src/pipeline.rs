@@ -57,6 +57,27 @@ pub struct Renderer {
     schedule: Schedule,
 }
 
+/// What [`Renderer::new`] knows beyond [`Renderer::bare`], in any order: it means nothing to a picture.
+pub const BUILT_IN: [fn(Renderer) -> Renderer; 17] = [
+    Renderer::with_primitive::<Sphere>,
+    Renderer::with_primitive::<Plane>,
+    Renderer::with_primitive::<Cuboid>,
+    Renderer::with_primitive::<Cone>,
+    Renderer::with_primitive::<Cylinder>,
+    Renderer::with_primitive::<Triangle>,
+    Renderer::with_primitive::<Mesh>,
+    Renderer::with_primitive::<Lathe>,
+    Renderer::with_primitive::<HeightField>,
+    Renderer::with_primitive::<TriangleField>,
+    Renderer::with_primitive::<SphereFlake>,
+    Renderer::with_light::<PointLight>,
+    Renderer::with_light::<DirectionalLight>,
+    Renderer::with_light::<ConeLight>,
+    Renderer::with_light::<DiskLight>,
+    Renderer::with_texture::<ImageTexture>,
+    Renderer::with_texture::<Checker>,
+];
+
 impl Default for Renderer {
     fn default() -> Self {
         Self::new()
@@ -67,6 +88,13 @@ impl Renderer {
     /// An empty world that knows the built-in shapes, lights, textures and effects.
     #[must_use]
     pub fn new() -> Self {
+        BUILT_IN.iter().fold(Self::bare(), |renderer, add| add(renderer))
+    }
+
+    /// An empty world that knows effects and ambient light, but no shape, no other light and no texture: for those who
+    /// choose from [`BUILT_IN`] or bring their own.
+    #[must_use]
+    pub fn bare() -> Self {
         let mut world = World::new();
         world.init_resource::<Registry>();
         world.init_resource::<Settings>();
@@ -106,23 +134,7 @@ impl Renderer {
         this.register::<Absorption>(Kind::Filling);
         this.register::<Dispersion>(Kind::Filling);
         this.register::<MediumRank>(Kind::Filling);
-        this.with_primitive::<Sphere>()
-            .with_primitive::<Plane>()
-            .with_primitive::<Cuboid>()
-            .with_primitive::<Cone>()
-            .with_primitive::<Cylinder>()
-            .with_primitive::<Triangle>()
-            .with_primitive::<Mesh>()
-            .with_primitive::<Lathe>()
-            .with_primitive::<HeightField>()
-            .with_primitive::<TriangleField>()
-            .with_primitive::<SphereFlake>()
-            .with_light::<PointLight>()
-            .with_light::<DirectionalLight>()
-            .with_light::<ConeLight>()
-            .with_light::<DiskLight>()
-            .with_texture::<ImageTexture>()
-            .with_texture::<Checker>()
+        this
     }
 
     /// Teaches the renderer a kind of shape: from here on scenes may name it and rays meet it.

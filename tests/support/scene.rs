@@ -65,6 +65,11 @@ impl Scene {
     /// A world with the scene in it; `order` 0 makes the things in the order in which they were put, any other number
     /// shuffles both the making of the entities and the giving of components.
     pub(crate) fn build(&self, order: u64) -> (Renderer, Entities) {
+        self.build_in(Renderer::new(), order)
+    }
+
+    /// The same in a world of one's own.
+    pub(crate) fn build_in(&self, mut renderer: Renderer, order: u64) -> (Renderer, Entities) {
         let mut random = Random::new(order);
         let mut shuffled = || {
             let mut indices: Vec<usize> = (0..self.things.len()).collect();
@@ -75,7 +80,6 @@ impl Scene {
             }
             indices
         };
-        let mut renderer = Renderer::new();
         *renderer.settings() = self.settings.clone();
         let mut entities = Entities::new();
         for i in shuffled() {

@@ -23,7 +23,7 @@ use crate::{
     space::{BoundingSphere, Bounds, Ray},
 };
 use bevy_ecs::{component::Mutable, prelude::*};
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 
 /// Most triangles that a built-in figure makes.
 pub const MAX_TRIANGLES: u64 = 1 << 23;
@@ -74,6 +74,10 @@ impl<F: Figure> Primitive for F {
 
     fn surface_without_uv(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
         Mesh::surface_without_uv(packed, ray, hit)
+    }
+
+    fn lift(packed: &PackedMesh, ray: &Ray, hit: Hit) -> DVec3 {
+        Mesh::lift(packed, ray, hit)
     }
 
     fn bounding_sphere(packed: &PackedMesh, bounds: &Bounds) -> BoundingSphere {

@@ -3,7 +3,7 @@
 //! `shading: AsModelled` smooths the triangles whose corners have normals in the file; `Flat` smooths none; `Smooth`
 //! smooths all, with the area-weighted mean normal of the faces around each vertex where the file has none.
 
-use super::{mesh_methods::OtherTrees, mesh_tree::MeshTree, shear::RayFrame};
+use super::{mesh_methods::OtherTrees, mesh_tree::MeshTree, shear::RayFrame, terminator};
 use crate::{
     asset::Asset,
     choice,
@@ -288,6 +288,35 @@ struct Placed {
 }
 
 impl Placed {
+    /// The normals at a triangle's vertices, object space, if it is smoothed; of any length.
+    #[inline]
+    fn normals(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
+        let mesh = &*self.mesh;
+        let modelled = || mesh.normals.of(triangle);
+        match self.shading {
+            Shading::Flat => None,
+            Shading::AsModelled => modelled(),
+            Shading::Smooth => modelled().or_else(|| {
+                let [a, b, c] = mesh.triangles[triangle as usize];
+                let normals = mesh.smooth_normals();
+                Some([normals[a as usize], normals[b as usize], normals[c as usize]])
+            }),
+        }
+    }
+
+    /// See [`Primitive::lift`].
+    fn lift(&self, ray: &Ray, hit: Hit) -> DVec3 {
+        let Some(normals) = self.normals(hit.part) else { return DVec3::ZERO };
+        let vertices = self.tree.vertices(hit.part);
+        let weights = RayFrame::new(&ray.transformed(&self.object_from_world)).weights(vertices);
+        let [a, b, c] = vertices;
+        let normal = self.cotangent * (b - a).cross(c - a);
+        let side = if normal.dot(ray.direction) < 0.0 { 1.0 } else { -1.0 };
+        let vertices = vertices.map(|v| self.world_from_object.transform_point3(v));
+        let normals = normals.map(|n| (self.cotangent * point(n)).normalize_or_zero() * side);
+        terminator::lift(vertices, normals, weights)
+    }
+
     /// The surface at a hit without texture coordinates, and the weights of the triangle's vertices there.
     #[inline]
     fn surface(&self, ray: &Ray, hit: Hit) -> (Surface, [f64; 3]) {
@@ -297,17 +326,7 @@ impl Placed {
         let [u, v, w] = RayFrame::new(&ray.transformed(&self.object_from_world)).weights(vertices);
         let blend = |[a, b, c]: [DVec3; 3]| a * u + b * v + c * w;
         let normal = (self.cotangent * (b - a).cross(c - a)).normalize_or(DVec3::Y);
-        let modelled = || mesh.normals.of(hit.part);
-        let normals = match self.shading {
-            Shading::Flat => None,
-            Shading::Smooth => modelled().or_else(|| {
-                let [a, b, c] = mesh.triangles[hit.part as usize];
-                let normals = mesh.smooth_normals();
-                Some([normals[a as usize], normals[b as usize], normals[c as usize]])
-            }),
-            Shading::AsModelled => modelled(),
-        };
-        let blended = normals.map(|[a, b, c]| blend([point(a), point(b), point(c)]));
+        let blended = self.normals(hit.part).map(|[a, b, c]| blend([point(a), point(b), point(c)]));
         let surface = Surface {
             point: self.world_from_object.transform_point3(blend(vertices)),
             normal,
@@ -394,6 +413,10 @@ impl Primitive for Mesh {
     #[inline]
     fn surface_without_uv(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
         packed.placed.surface(ray, hit).0
+    }
+
+    fn lift(packed: &PackedMesh, ray: &Ray, hit: Hit) -> DVec3 {
+        packed.placed.lift(ray, hit)
     }
 
     fn bounding_sphere(packed: &PackedMesh, _: &Bounds) -> BoundingSphere {

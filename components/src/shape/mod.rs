@@ -11,6 +11,7 @@ mod plane;
 mod ray_frame;
 mod shear;
 mod sphere;
+mod terminator;
 mod triangle;
 mod triangle_kernel;
 

@@ -4,6 +4,7 @@
 
 use super::{
     shear::RayFrame,
+    terminator,
     triangle_kernel::{TriangleKernel, WithKernel, choose},
 };
 use crate::{
@@ -104,6 +105,13 @@ impl Primitive for Triangle {
             slot: 0,
             error: Surface::rounding(a.abs().max(b.abs()).max(c.abs()).max_element()),
         }
+    }
+
+    fn lift(packed: &PackedTriangle, ray: &Ray, _: Hit) -> DVec3 {
+        let Some(normals) = packed.normals else { return DVec3::ZERO };
+        let side = if packed.normal.dot(ray.direction) < 0.0 { 1.0 } else { -1.0 };
+        let weights = RayFrame::new(ray).weights(packed.vertices);
+        terminator::lift(packed.vertices, normals.map(|n| n * side), weights)
     }
 
     fn bounding_sphere(packed: &PackedTriangle, _: &Bounds) -> BoundingSphere {

@@ -1,6 +1,7 @@
 //! Every shape of a scene, and the tree over them.
 
 use super::pool::{Best, ErasedPool, Nearest};
+use glam::DVec3;
 use snell_components::{
     bvh::{Box32, Bvh},
     method::{Accelerator, Methods, Precision},
@@ -165,6 +166,14 @@ impl Geometry {
     pub fn surface_without_uv(&self, nearest: &Nearest, ray: &Ray, with: &Methods) -> Surface {
         let Nearest { hit, pool, index, .. } = *nearest;
         less_sure(self.pools[pool as usize].surface_without_uv(index, ray, hit), hit.t, ray, with)
+    }
+
+    /// The way from the point that [`Geometry::nearest`] found for this ray to where rays to lights start; see
+    /// [`snell_components::primitive::Primitive::lift`].
+    #[must_use]
+    pub fn lift(&self, met: &Nearest, ray: &Ray) -> DVec3 {
+        let Nearest { hit, pool, index, .. } = *met;
+        self.pools[pool as usize].lift(index, ray, hit)
     }
 
     /// How a surface that was met goes on: where a ray close by, at a distance `t`, crosses its tangent plane.

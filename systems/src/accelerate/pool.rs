@@ -1,6 +1,7 @@
 //! All packed shapes of one type, behind an interface that knows no type.
 
 use core::ops::Range;
+use glam::DVec3;
 use snell_components::{
     method::Methods,
     primitive::{Cost, Extent, Hit, Primitive, Surface},
@@ -46,6 +47,9 @@ pub trait ErasedPool: Send + Sync {
 
     /// The same but for the texture coordinates, which mean nothing.
     fn surface_without_uv(&self, index: u32, ray: &Ray, hit: Hit) -> Surface;
+
+    /// See [`Primitive::lift`].
+    fn lift(&self, index: u32, ray: &Ray, hit: Hit) -> DVec3;
 }
 
 /// A search for the nearest hit.
@@ -143,5 +147,9 @@ impl<P: Primitive> ErasedPool for Pool<P> {
 
     fn surface_without_uv(&self, index: u32, ray: &Ray, hit: Hit) -> Surface {
         P::surface_without_uv(&self.shapes[index as usize], ray, hit)
+    }
+
+    fn lift(&self, index: u32, ray: &Ray, hit: Hit) -> DVec3 {
+        P::lift(&self.shapes[index as usize], ray, hit)
     }
 }

@@ -59,6 +59,7 @@ pub fn fresnel(cos_in: f64, eta: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::f64::consts::PI;
     use snell_components::math;
 
     #[test]
@@ -72,6 +73,31 @@ mod tests {
         let perpendicular = (1.25 / 3.25) * (1.25 / 3.25);
         assert!((fresnel(cos, 1.0 / 1.5) - 0.5 * perpendicular).abs() < 1e-15);
         assert!((0.0..=1.0).contains(&fresnel(1.0 + 1e-7, 1.0 / 1.5)) && fresnel(-1e-7, 1.0 / 1.5) == 1.0);
+    }
+
+    /// F62. Within 1e-12 of the critical angle either side may be taken; beyond that, the right one, by both functions, and
+    /// what is refracted is a unit vector that keeps to Snell's law.
+    #[test]
+    fn the_critical_angle_is_where_it_is() {
+        for index in [1.5, 1.0001, 2.4] {
+            let critical = (0.5 * PI - math::acos(1.0 / index)).to_degrees();
+            for exponent in 2..=11 {
+                let off = math::pow(10.0, -f64::from(exponent)).to_degrees();
+                // Beyond grazing there is nothing to bend.
+                for angle in [critical - off, critical + off].into_iter().filter(|angle| *angle < 90.0) {
+                    let (sin, cos) = math::sin_cos_degrees(angle);
+                    let bent = refract(DVec3::new(sin, -cos, 0.0), DVec3::Y, index);
+                    assert_eq!(bent.is_some(), angle < critical, "{index}, {off:e}");
+                    let reflected = fresnel(cos, index);
+                    assert!((0.0..=1.0).contains(&reflected));
+                    assert_eq!(reflected < 1.0, angle < critical, "{index}, {off:e}: {reflected}");
+                    if let Some(bent) = bent {
+                        assert!((bent.length() - 1.0).abs() <= 4.0 * f64::EPSILON);
+                        assert!((bent.x - index * sin).abs() <= 8.0 * f64::EPSILON, "{index}, {off:e}");
+                    }
+                }
+            }
+        }
     }
 
     #[test]

@@ -32,6 +32,8 @@ pub(super) struct Point<'a> {
     pub travelled: f64,
     pub surface: Surface,
     pub material: &'a Material,
+    /// From the point to where rays to lights start, beyond rounding: nothing where no normals are interpolated.
+    pub lift: DVec3,
     /// Whether the ray comes from outside.
     pub entering: bool,
     pub key: Key,
@@ -60,7 +62,9 @@ impl<'a> Point<'a> {
             surface.shading_normal = -surface.shading_normal;
         }
         let (direction, travelled) = (ray.direction, met.hit.t);
-        Self { snapshot, methods, direction, travelled, surface, material, entering, key }
+        let smooth = surface.shading_normal != surface.normal;
+        let lift = if smooth { geometry.lift(met, ray) } else { DVec3::ZERO };
+        Self { snapshot, methods, direction, travelled, surface, material, lift, entering, key }
     }
 
     /// Sum of the ambient, diffuse and highlight terms; `weight` is what it is multiplied by in the pixel, `interior`
@@ -126,7 +130,7 @@ impl<'a> Point<'a> {
         observer: &mut O,
         term: impl Fn(&Arriving) -> Rgb,
     ) -> Rgb {
-        let start = self.surface.departure(self.surface.normal, self.travelled);
+        let start = self.surface.departure(self.surface.normal, self.travelled) + self.lift;
         let mut sum = Rgb::ZERO;
         let Lights { lamps, sampling, .. } = &*self.snapshot.lights;
         for ((lamp, sampling), n) in lamps.iter().zip(sampling).zip(0..) {
