@@ -26,6 +26,7 @@ pub mod cli;
 
 pub mod golden;
 
+pub use snell_charts as charts;
 pub use snell_components as components;
 pub use snell_systems as systems;
 pub use snell_systems::conformance;
@@ -54,6 +55,7 @@ pub mod prelude {
         color::Rgb,
         describe::{Describe, Fault, FieldVisitor, Spec, Value},
         figure::{Arrangement, Figure, HeightField, Lathe, SphereFlake, TriangleField},
+        hidden::Hidden,
         light::{
             AmbientLight, ConeLight, DirectionalLight, DiskLight, Emission, FallOff, Illumination, Lamp, Light,
             PointLight,

@@ -23,7 +23,7 @@
 //! | [`math`] | the only door to functions beyond `+ − × ÷ √` |
 //! | [`space`], [`transform`] | rays, bounds, placement |
 //! | [`color`] | linear RGB and the sRGB transfer curve |
-//! | [`name`], [`describe`], [`asset`], [`written`] | what a thing is called, how its fields are read and written, files it refers to, where it stands in a file |
+//! | [`name`], [`hidden`], [`describe`], [`asset`], [`written`] | what a thing is called, how its fields are read and written, files it refers to, where it stands in a file |
 //! | [`lanes`] | several numbers at once, at the level the machine has |
 //! | [`bvh`] | the bounding-volume tree, over bounds alone |
 //! | [`method`], [`sphere_tree`], [`real`] | the methods Snell is measured against, and the choice between them |
@@ -78,6 +78,8 @@ pub mod figure;
 pub mod texture;
 
 pub mod material;
+
+pub mod hidden;
 
 pub mod light;
 

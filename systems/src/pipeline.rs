@@ -16,6 +16,7 @@ use snell_components::{
     camera::Camera,
     describe::Describe,
     figure::{HeightField, Lathe, SphereFlake, TriangleField},
+    hidden::Hidden,
     light::{AmbientLight, ConeLight, DirectionalLight, DiskLight, Light, PointLight},
     material::{
         Absorption, Ambient, Color, Dielectric, Diffuse, Dispersion, Highlight, MediumRank, Mirror, Opacity,
@@ -118,6 +119,7 @@ impl Renderer {
 
         let mut this = Self { world, schedule };
         this.register::<Transform>(Kind::Placement);
+        this.register::<Hidden>(Kind::Visibility);
         this.register::<Camera>(Kind::Camera);
         this.world.register_required_components::<Camera, Transform>();
         this.world.register_required_components::<Transform, GlobalTransform>();

@@ -21,6 +21,8 @@ pub enum Kind {
     Camera,
     /// Where the entity is.
     Placement,
+    /// Whether the entity is seen.
+    Visibility,
 }
 
 /// Why two components, by kind and tag, cannot stand on one entity; nothing if they can.

@@ -85,11 +85,13 @@ const PRESSES: [[Press; 2]; 6] = [
 
 /// Motions whose keys were pressed, unless text is being typed.
 pub(super) fn pressed(ctx: &Context) -> Vec<Motion> {
-    if ctx.egui_wants_keyboard_input() {
+    if ctx.text_edit_focused() {
         return vec![];
     }
     let mut motions = vec![];
-    for press in PRESSES.iter().flatten() {
+    // Those with Shift first: without, a key is taken whatever is held besides.
+    let (shifted, plain): (Vec<_>, Vec<_>) = PRESSES.iter().flatten().partition(|press| press.modifiers == SHIFT);
+    for press in shifted.into_iter().chain(plain) {
         for _ in 0..ctx.input_mut(|input| input.count_and_consume_key(press.modifiers, press.key)) {
             motions.push(press.motion);
         }

@@ -37,8 +37,10 @@ pub(super) fn rust(scene: &Scene, registry: &Registry) -> String {
     let body = built(scene, &things).unwrap_or_else(|| read(scene, registry));
     format!(
         "use snell::{{components::name::Name, prelude::*, systems::image}};\n\n\
-         fn main() -> Result<(), Box<dyn std::error::Error>> {{\n    let mut renderer = Renderer::new();\n{body}\n    \
-         let snapshot = renderer.snapshot()?;\n    let frame = render(&snapshot, &Options::default());\n    \
+         /// The scene.\npub fn scene() -> Result<Renderer, Box<dyn std::error::Error>> {{\n    \
+         let mut renderer = Renderer::new();\n{body}    Ok(renderer)\n}}\n\n\
+         fn main() -> Result<(), Box<dyn std::error::Error>> {{\n    \
+         let snapshot = scene()?.snapshot()?;\n    let frame = render(&snapshot, &Options::default());\n    \
          let metadata = image::Metadata::of(&frame, &snapshot.settings, \"scene\".as_ref());\n    \
          image::write(\"scene.png\".as_ref(), image::Format::Png8, &frame.picture, &metadata)?;\n    Ok(())\n}}\n"
     )

@@ -48,6 +48,9 @@ pub(super) enum Command {
     /// Takes a file that was dropped or chosen: a scene, a model, an image.
     Take(PathBuf),
     Duplicate,
+    ToggleHidden(Name),
+    /// Hides or shows the selected thing.
+    Hide,
     Delete,
     AskRename,
     Rename(Name, String),
@@ -113,6 +116,7 @@ pub(super) const SHORTCUTS: &[Shortcut] = &[
     shortcut("Redo", CTRL, Key::Y, || Command::Redo),
     shortcut("Undo", CTRL, Key::Z, || Command::Undo),
     shortcut("Duplicate", CTRL, Key::D, || Command::Duplicate),
+    shortcut("Hide", Modifiers::NONE, Key::H, || Command::Hide),
     shortcut("Delete", Modifiers::NONE, Key::Delete, || Command::Delete),
     shortcut("Rename…", Modifiers::NONE, Key::F2, || Command::AskRename),
     shortcut("Show selected", Modifiers::NONE, Key::F, || Command::Frame),

@@ -25,12 +25,13 @@ pub(super) enum Dialog {
 pub(super) fn show(editor: &mut Editor, ui: &mut Ui) {
     let Some(mut dialog) = editor.dialog.take() else { return };
     let mut stays = true;
+    let frame = egui::Frame::popup(ui.style()).inner_margin(16);
     // Each kind has a place of its own, or one would be laid out as large as the one before.
-    let modal = Modal::new(Id::unique(("dialog", std::mem::discriminant(&dialog)))).show(ui.ctx(), |ui| {
+    let modal = Modal::new(Id::unique(("dialog", std::mem::discriminant(&dialog)))).frame(frame).show(ui.ctx(), |ui| {
         ui.spacing_mut().item_spacing.y = 8.0;
         match &mut dialog {
             Dialog::Start => {
-                ui.set_width(700.0);
+                ui.set_width(676.0);
                 starters::show(editor, ui);
             }
             Dialog::Files(browser) => {

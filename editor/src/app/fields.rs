@@ -111,7 +111,7 @@ pub(super) struct Row {
 }
 
 /// Width of the names before the widgets.
-const NAMES: f32 = 104.0;
+const NAMES: f32 = 92.0;
 
 impl Row {
     /// A name before widgets, which are in one line with it.
@@ -147,8 +147,15 @@ impl Row {
             fault = why;
             let by_hand = if is_share {
                 ui.spacing_mut().slider_width = (ui.available_width() - 8.0).clamp(40.0, 140.0);
-                let slider = egui::Slider::new(x, 0.0..=1.0).show_value(false).step_by(0.01);
-                ui.add(slider).accessible_name(format!("{} slider", self.name)).changed()
+                // What it shows may be rounded; only what a hand does counts.
+                let mut shown = *x;
+                let slider = ui.add(egui::Slider::new(&mut shown, 0.0..=1.0).show_value(false));
+                let slider = slider.accessible_name(format!("{} slider", self.name));
+                let is_moved = slider.changed() && (slider.dragged() || slider.clicked() || slider.has_focus());
+                if is_moved {
+                    *x = (shown * 100.0).round() / 100.0;
+                }
+                is_moved
             } else {
                 dragged(ui, "↔", x, range, whole).0
             };
@@ -179,7 +186,7 @@ impl Row {
         let mut fault = None;
         let changed = self.line(ui, |ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
-            let width = ((ui.available_width() / axes.len() as f32) - 18.0).clamp(36.0, 64.0);
+            let width = ((ui.available_width() / axes.len() as f32) - 24.0).clamp(30.0, 64.0);
             let mut changed = false;
             for (axis, x) in axes.iter().zip(&mut *numbers) {
                 changed |= dragged(ui, axis, x, self.spec.range, false).0;
@@ -230,7 +237,10 @@ impl Row {
         for (number, value) in all.iter_mut().enumerate() {
             let row = Self { name: format!("{} {}", self.name, number + 1), ..*self };
             ui.horizontal(|ui| {
-                ui.vertical(|ui| changed |= show(&row, ui, value));
+                ui.vertical(|ui| {
+                    ui.set_max_width(ui.available_width() - 34.0);
+                    changed |= show(&row, ui, value);
+                });
                 if ui.small_button("×").accessible_name(format!("Remove {}", row.name)).clicked() {
                     gone = Some(number);
                 }

@@ -214,6 +214,7 @@ fn components(editor: &mut Editor, ui: &mut Ui, name: &Name, thing: &Thing) {
         .components
         .iter()
         .filter_map(|(tag, component)| Some((registry.get(tag)?.kind, *tag, component.as_ref())))
+        .filter(|(kind, ..)| *kind != Kind::Visibility)
         .collect();
     parts.sort_by_key(|(kind, tag, _)| (*kind != Kind::Placement, *kind, *tag));
     let has_place = parts.iter().any(|(_, tag, _)| *tag == Transform::TAG);

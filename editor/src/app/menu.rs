@@ -28,7 +28,7 @@ pub(super) fn bar(editor: &mut Editor, ui: &mut Ui) {
                 item(editor, ui, label);
             }
             ui.separator();
-            for label in ["Duplicate", "Rename…", "Delete", "Show selected"] {
+            for label in ["Duplicate", "Rename…", "Hide", "Delete", "Show selected"] {
                 item(editor, ui, label);
             }
         });

@@ -1,20 +1,23 @@
 //! The editor's window, drawn with egui; all that it shows and does, one thing in a file.
 //!
-//! Panels only look and wish: every wish is a [`command::Command`], done at the end of the frame in `state.rs`. So menus,
+//! Panels only look and wish: every wish is a [`command::Command`], done at the end of the frame in `perform.rs`. So menus,
 //! buttons, keys and tests have one way in, and no frame waits for drawing or reading.
 
 mod add;
 mod browser;
 mod camera;
+mod chart;
 mod code;
 mod command;
 mod dialog;
 mod fields;
 mod gizmo;
 mod inspector;
+mod intake;
 mod menu;
 mod names;
 mod number;
+mod perform;
 mod render;
 mod starters;
 mod state;
@@ -49,6 +52,7 @@ impl Editor {
                 Tab::Thing => inspector::show(self, ui),
                 Tab::Render => render::show(self, ui),
                 Tab::Why => why::show(self, ui),
+                Tab::Chart => chart::show(self, ui),
             }
         });
         CentralPanel::no_frame().show(ui, |ui| viewport::show(self, ui));

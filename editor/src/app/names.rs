@@ -54,7 +54,7 @@ impl Group {
             Kind::Light => Self::Lights,
             Kind::Camera => Self::Camera,
             Kind::Effect | Kind::Texture | Kind::Filling => Self::Materials,
-            Kind::Placement => Self::Groups,
+            Kind::Placement | Kind::Visibility => Self::Groups,
         };
         // A shape with effects is an object, a light that has a shape too.
         let order =

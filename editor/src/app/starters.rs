@@ -54,6 +54,11 @@ impl Thumbnails {
         Self { receiver, textures: ALL.iter().map(|_| None).collect() }
     }
 
+    /// Whether some are still to come.
+    pub(super) fn is_busy(&self) -> bool {
+        self.textures.iter().any(Option::is_none)
+    }
+
     fn receive(&mut self, ctx: &Context) {
         for (number, image) in self.receiver.try_iter() {
             self.textures[number] = Some(ctx.load_texture(ALL[number].name, image, TextureOptions::LINEAR));

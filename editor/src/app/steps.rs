@@ -15,6 +15,9 @@ const KINDS: [(&str, fn() -> Step); 6] = [
     ("Scale", || Step::Scale(DVec3::ONE)),
 ];
 
+/// Width of the button that takes a step away.
+const REMOVE: f32 = 34.0;
+
 fn called(step: &Step) -> &'static str {
     match step {
         Step::Translate(_) => "Move",
@@ -36,7 +39,10 @@ pub(super) fn show(ui: &mut Ui, name: &str, steps: &mut SmallVec<[Step; 4]>) -> 
         let row = if count > 1 { format!("{kind} {count}") } else { kind.into() };
         ui.push_id((name, number), |ui| {
             ui.horizontal(|ui| {
-                ui.vertical(|ui| changed |= fields::step(ui, &row, step));
+                ui.vertical(|ui| {
+                    ui.set_max_width(ui.available_width() - REMOVE);
+                    changed |= fields::step(ui, &row, step);
+                });
                 if ui
                     .small_button("×")
                     .accessible_name(format!("Remove {row}"))

@@ -8,7 +8,7 @@ use super::{
 };
 use egui::{RichText, ScrollArea, Ui};
 use snell::{
-    components::name::Name,
+    components::{describe::Describe, hidden::Hidden, name::Name},
     systems::{registry::Kind, scene::is_of_model},
 };
 
@@ -55,17 +55,35 @@ fn list(editor: &mut Editor, ui: &mut Ui, group: Group) {
     let last = (((seen.bottom() - top) / height).ceil().max(0.0) as usize + 1).min(names.len());
     ui.add_space(first as f32 * height);
     for name in &names[first..last.max(first)] {
-        row(editor, ui, name);
+        row(editor, ui, name, group);
     }
     ui.add_space((names.len() - last.max(first)) as f32 * height);
     ui.add_space(6.0);
 }
 
-fn row(editor: &mut Editor, ui: &mut Ui, name: &Name) {
+fn row(editor: &mut Editor, ui: &mut Ui, name: &Name, group: Group) {
     let is_selected = editor.selected.as_ref() == Some(name);
-    let size = egui::vec2(ui.available_width(), ui.spacing().interact_size.y);
-    let button = egui::Button::selectable(is_selected, name.as_str()).truncate();
-    let response = ui.add_sized_left(size, button);
+    let height = ui.spacing().interact_size.y;
+    let response = ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 0.0;
+        // What can be seen or shines can be hidden.
+        let can_hide = matches!(group, Group::Objects | Group::Lights);
+        if let (true, Some(thing)) = (can_hide, editor.session.document.get(name)) {
+            let is_hidden = thing.components.contains_key(Hidden::TAG);
+            let mut is_shown = !is_hidden;
+            let label = format!("Show {}", name.as_str());
+            let tip = if is_hidden { "Hidden: tick to show it" } else { "Shown: take the tick away to hide it" };
+            if ui.checkbox(&mut is_shown, "").accessible_name(label).on_hover_text(tip).changed() {
+                editor.ask(Command::ToggleHidden(name.clone()));
+            }
+        }
+        let size = egui::vec2(ui.available_width(), height);
+        let text = RichText::new(name.as_str());
+        let button = egui::Button::selectable(is_selected, text).truncate();
+        let layout = egui::Layout::top_down_justified(egui::Align::Min);
+        ui.allocate_ui_with_layout(size, layout, |ui| ui.add(button)).inner
+    });
+    let response = response.inner;
     if response.clicked() || response.secondary_clicked() {
         editor.ask(Command::Select(Some(name.clone())));
     }
@@ -73,7 +91,7 @@ fn row(editor: &mut Editor, ui: &mut Ui, name: &Name) {
         editor.ask(Command::Frame);
     }
     response.context_menu(|ui| {
-        for label in ["Rename…", "Duplicate", "Delete", "Show selected"] {
+        for label in ["Rename…", "Duplicate", "Hide", "Delete", "Show selected"] {
             super::menu::item(editor, ui, label);
         }
     });
@@ -112,17 +130,5 @@ pub(super) fn add_menu(editor: &mut Editor, ui: &mut Ui) {
     }
     if ui.button("Group").on_hover_text("Places the things whose parent it is").clicked() {
         editor.ask(Command::AddGroup);
-    }
-}
-
-trait AddSizedLeft {
-    fn add_sized_left(&mut self, size: egui::Vec2, widget: impl egui::Widget) -> egui::Response;
-}
-
-impl AddSizedLeft for Ui {
-    /// As `add_sized`, but with the text at the left.
-    fn add_sized_left(&mut self, size: egui::Vec2, widget: impl egui::Widget) -> egui::Response {
-        let layout = egui::Layout::top_down_justified(egui::Align::Min);
-        self.allocate_ui_with_layout(size, layout, |ui| ui.add(widget)).inner
     }
 }

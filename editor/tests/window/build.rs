@@ -3,7 +3,7 @@
 use crate::driver::{Window, rendered};
 use egui::{Key, Modifiers};
 use snell_editor::worker::Phase;
-use std::{fs, path::Path};
+use std::fs;
 
 /// What is shown behind and inside a ball of which a part shows, built from an empty scene by names alone.
 fn build(window: &mut Window) {
@@ -32,16 +32,6 @@ fn build(window: &mut Window) {
     window.set("Color", "#4a9a3a");
 }
 
-fn save_as(window: &mut Window, file: &Path) {
-    window.key(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
-    window.set("File name", file.to_str().expect("a path"));
-    if window.has("Replace") {
-        window.click("Replace");
-    }
-    window.wait();
-    assert!(file.is_file(), "not saved");
-}
-
 #[test]
 fn a_scene_is_built_rendered_stopped_changed_undone_saved_and_opened_again() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -50,7 +40,7 @@ fn a_scene_is_built_rendered_stopped_changed_undone_saved_and_opened_again() {
     build(&mut window);
 
     // Saved, what is on the screen is what the file gives.
-    save_as(&mut window, &file);
+    window.save_as(&file);
     let first = window.picture();
     assert_eq!(first, rendered(&file));
     let saved = fs::read_to_string(&file).expect("a text");
@@ -65,7 +55,7 @@ fn a_scene_is_built_rendered_stopped_changed_undone_saved_and_opened_again() {
     assert_eq!(window.picture(), first);
     assert!(!window.editor().session().document.is_changed());
     window.menu(&["Redo"]);
-    save_as(&mut window, &file);
+    window.save_as(&file);
     assert_eq!(window.picture(), rendered(&file));
 
     // Stopped, the part that was drawn is kept.

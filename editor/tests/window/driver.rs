@@ -15,6 +15,9 @@ pub(crate) struct Window {
     pub(crate) harness: Harness<'static, Option<Editor>>,
 }
 
+/// Points.
+const SIZE: [u32; 2] = [1280, 800];
+
 impl Window {
     /// A window with the built-in shapes that opens a file, or shows scenes to begin with.
     pub(crate) fn open(data: &Path, file: Option<&Path>) -> Self {
@@ -28,7 +31,7 @@ impl Window {
             let make = || Editor::new(ui.ctx(), factory.clone(), data.clone(), file.as_deref());
             editor.get_or_insert_with(make).ui(ui);
         };
-        let builder = Harness::builder().with_size([1280.0, 800.0]).with_step_dt(1.0 / 60.0);
+        let builder = Harness::builder().with_size(SIZE.map(|n| n as f32)).with_step_dt(1.0 / 60.0);
         let mut this = Self { harness: builder.build_ui_state(show, None) };
         this.wait();
         this
@@ -104,17 +107,34 @@ impl Window {
         self.step();
     }
 
+    /// Saves the scene to a file.
+    pub(crate) fn save_as(&mut self, file: &Path) {
+        self.key(Modifiers::COMMAND | Modifiers::SHIFT, Key::S);
+        self.set("File name", file.to_str().expect("a path"));
+        if self.has("Replace") {
+            self.click("Replace");
+        }
+        self.wait();
+        assert!(file.is_file(), "not saved");
+    }
+
     /// Drags from one point of the window to another.
     pub(crate) fn drag(&mut self, from: egui::Pos2, by: egui::Vec2) {
+        self.drag_with(egui::PointerButton::Primary, from, by);
+    }
+
+    /// As [`Window::drag`] with a button.
+    pub(crate) fn drag_with(&mut self, button: egui::PointerButton, from: egui::Pos2, by: egui::Vec2) {
+        let press = |pos, pressed| egui::Event::PointerButton { pos, button, pressed, modifiers: Modifiers::NONE };
         self.harness.hover_at(from);
         self.step();
-        self.harness.drag_at(from);
+        self.harness.event(press(from, true));
         self.step();
         for part in 1..=4 {
             self.harness.hover_at(from + by * part as f32 / 4.0);
             self.step();
         }
-        self.harness.drop_at(from + by);
+        self.harness.event(press(from + by, false));
         self.step();
         self.wait();
     }

@@ -7,6 +7,7 @@ use super::{
 use crate::transform::ScenePlacement;
 use bevy_ecs::prelude::*;
 use snell_components::{
+    hidden::Hidden,
     name::{Name, Rank},
     primitive::{Degenerate, Extent, Primitive},
     space::BoundingSphere,
@@ -88,14 +89,16 @@ fn finite<F>((extent, form): (Extent, F)) -> Result<(Extent, F), Degenerate> {
 
 /// Gathers the packed shapes of one type when any of them changed.
 pub fn pool<P: Primitive>(
-    changed: Query<(), Or<(Changed<Packed<P>>, (With<Packed<P>>, Changed<Name>))>>,
+    changed: Query<(), Or<(Changed<Packed<P>>, (With<Packed<P>>, Or<(Changed<Name>, Changed<Hidden>)>))>>,
     mut removed: RemovedComponents<Packed<P>>,
     mut unnamed: RemovedComponents<Name>,
-    all: Query<(Entity, Option<&Name>, &Packed<P>)>,
+    mut shown: RemovedComponents<Hidden>,
+    all: Query<(Entity, Option<&Name>, &Packed<P>), Without<Hidden>>,
     mut scenery: ResMut<Scenery>,
 ) {
     // All are read, so that nothing is seen again next time.
-    let removed = removed.read().count() + unnamed.read().filter(|entity| all.contains(*entity)).count();
+    let other = unnamed.read().chain(shown.read()).filter(|entity| all.contains(*entity)).count();
+    let removed = removed.read().count() + other;
     if changed.is_empty() && removed == 0 {
         return;
     }

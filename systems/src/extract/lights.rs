@@ -5,6 +5,7 @@ use crate::{snapshot::Lights, transform::ScenePlacement};
 use bevy_ecs::prelude::*;
 use snell_components::{
     color::Rgb,
+    hidden::Hidden,
     light::{AmbientLight, Lamp, Light},
     name::{Name, Rank},
     transform::GlobalTransform,
@@ -44,16 +45,18 @@ pub fn pack_lights<L: Light>(
 /// Gathers all lights when any of them changed.
 pub fn gather_lights(
     changed: Query<(), Or<(Changed<PackedLamps>, Changed<AmbientLight>)>>,
-    renamed: Query<(), (Or<(With<PackedLamps>, With<AmbientLight>)>, Changed<Name>)>,
+    renamed: Query<(), (Or<(With<PackedLamps>, With<AmbientLight>)>, Or<(Changed<Name>, Changed<Hidden>)>)>,
     mut lamps_removed: RemovedComponents<PackedLamps>,
     mut ambient_removed: RemovedComponents<AmbientLight>,
     mut unnamed: RemovedComponents<Name>,
-    lamps: Query<(Entity, Option<&Name>, &PackedLamps)>,
-    ambient: Query<(Entity, Option<&Name>, &AmbientLight)>,
+    mut shown: RemovedComponents<Hidden>,
+    lamps: Query<(Entity, Option<&Name>, &PackedLamps), Without<Hidden>>,
+    ambient: Query<(Entity, Option<&Name>, &AmbientLight), Without<Hidden>>,
     mut parts: ResMut<Parts>,
 ) {
     let shines = |entity: &Entity| lamps.contains(*entity) || ambient.contains(*entity);
-    let removed = lamps_removed.read().count() + ambient_removed.read().count() + unnamed.read().filter(shines).count();
+    let other = unnamed.read().chain(shown.read()).filter(shines).count();
+    let removed = lamps_removed.read().count() + ambient_removed.read().count() + other;
     if changed.is_empty() && renamed.is_empty() && removed == 0 {
         return;
     }
