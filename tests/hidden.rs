@@ -9,7 +9,7 @@ const SCENE: &str = r#"Scene(
         "camera": [Camera(position: (0, 1, 6), target: (0, 1, 0))],
         "sky": [AmbientLight(0.2)],
         "lamp": [PointLight(position: (3, 5, 4))],
-        "ground": [Plane, Diffuse(0.8), Mirror(0.3)],
+        "ground": [Plane, Ambient(0.4), Diffuse(0.8), Mirror(0.3)],
         "ball": [Sphere(1), Transform([Translate((0, 1, 0))]), Diffuse(0.8)],
         "moon": [Sphere(0.2), Parent("ball"), Transform([Translate((1.5, 0, 0))]), Diffuse(0.8)],
         "cube": [Box(size: (1, 1, 1)), Transform([Translate((2, 0.5, 0))]), Diffuse(0.5)],

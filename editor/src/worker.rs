@@ -108,6 +108,8 @@ struct Queue {
     stop: Stop,
     /// Whether it was the user who stopped it.
     stopped: bool,
+    /// Whether messages that were taken are being seen to.
+    is_working: bool,
     end: bool,
 }
 
@@ -179,8 +181,8 @@ impl Worker {
     /// Whether something is being drawn or is about to be.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        let waiting = !lock(&self.shared.queue).messages.is_empty();
-        waiting || matches!(self.view().phase, Phase::Building | Phase::Coarse | Phase::Exact)
+        let queue = lock(&self.shared.queue);
+        queue.is_working || !queue.messages.is_empty()
     }
 
     fn send(&self, message: Message) {
@@ -255,6 +257,7 @@ impl Drawer {
                 }
                 queue.stop = Stop::new();
                 queue.stopped = false;
+                queue.is_working = true;
                 (
                     std::mem::take(&mut queue.messages),
                     queue.since.take().unwrap_or_else(Instant::now),
@@ -269,6 +272,7 @@ impl Drawer {
                 view.error =
                     Some("drawing failed: a part of the program, perhaps a shape from outside, gave up".into());
             }
+            lock(&self.shared.queue).is_working = false;
             (self.shared.repaint)();
         }
     }

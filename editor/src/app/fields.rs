@@ -111,7 +111,7 @@ pub(super) struct Row {
 }
 
 /// Width of the names before the widgets.
-const NAMES: f32 = 92.0;
+const NAMES: f32 = 80.0;
 
 impl Row {
     /// A name before widgets, which are in one line with it.

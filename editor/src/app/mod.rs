@@ -46,7 +46,7 @@ impl Editor {
             .default_size(200.0)
             .size_range(150.0..=360.0)
             .show(ui, |ui| things::show(self, ui));
-        Panel::right("details").frame(side).default_size(330.0).size_range(280.0..=520.0).show(ui, |ui| {
+        Panel::right("details").frame(side).default_size(370.0).size_range(320.0..=560.0).show(ui, |ui| {
             menu::tabs(self, ui);
             match self.tab {
                 Tab::Thing => inspector::show(self, ui),

@@ -1,5 +1,6 @@
 //! The editor without a window: driven by the names that screen readers see.
 
+use crate::raster::Raster;
 use egui::{Key, Modifiers, Role};
 use egui_kittest::{Harness, Node, kittest::Queryable};
 use snell::{Options, Renderer, render};
@@ -13,9 +14,10 @@ use std::{
 /// The editor under test; it is there from the first frame on.
 pub(crate) struct Window {
     pub(crate) harness: Harness<'static, Option<Editor>>,
+    raster: Raster,
 }
 
-/// Points.
+/// Points, and pixels.
 const SIZE: [u32; 2] = [1280, 800];
 
 impl Window {
@@ -31,14 +33,20 @@ impl Window {
             let make = || Editor::new(ui.ctx(), factory.clone(), data.clone(), file.as_deref());
             editor.get_or_insert_with(make).ui(ui);
         };
+        let raster = Raster::default();
         let builder = Harness::builder().with_size(SIZE.map(|n| n as f32)).with_step_dt(1.0 / 60.0);
-        let mut this = Self { harness: builder.build_ui_state(show, None) };
+        let mut this = Self { harness: builder.renderer(raster.clone()).build_ui_state(show, None), raster };
         this.wait();
         this
     }
 
     pub(crate) fn editor(&self) -> &Editor {
         self.harness.state().as_ref().expect("shown once")
+    }
+
+    /// What the window looks like.
+    pub(crate) fn shot(&self) -> image::RgbImage {
+        self.raster.picture(&self.harness.ctx, self.harness.output(), SIZE)
     }
 
     pub(crate) fn step(&mut self) {
@@ -104,6 +112,13 @@ impl Window {
 
     pub(crate) fn key(&mut self, modifiers: Modifiers, key: Key) {
         self.harness.key_press_modifiers(modifiers, key);
+        self.step();
+    }
+
+    /// Takes the keys away from what has them.
+    pub(crate) fn release_focus(&mut self) {
+        let ctx = self.harness.ctx.clone();
+        ctx.memory_mut(|memory| memory.focused().map(|id| memory.surrender_focus(id)));
         self.step();
     }
 

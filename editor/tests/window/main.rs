@@ -3,7 +3,13 @@
 mod build;
 mod driver;
 mod files;
+mod look;
 mod outside_shape;
+#[expect(dead_code, unreachable_pub, reason = "a program as the editor writes it")]
+#[rustfmt::skip]
+mod program;
+mod raster;
+mod shown;
 
 #[path = "../../../tests/outside/src/torus.rs"]
 #[expect(unreachable_pub, reason = "as it stands in a crate of its own")]
