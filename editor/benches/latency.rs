@@ -7,7 +7,6 @@
 #[expect(dead_code, reason = "a part of it")]
 mod driver;
 #[path = "../tests/window/raster.rs"]
-#[expect(dead_code, reason = "a part of it")]
 mod raster;
 
 use driver::Window;
