@@ -1,6 +1,6 @@
 //! The editor's window, drawn with egui; all that it shows and does, one thing in a file.
 //!
-//! Panels only look and wish: every wish is a [`command::Command`], done at the end of the frame in `perform.rs`. So menus,
+//! Panels only look and wish: every wish is a `command::Command`, done at the end of the frame in `perform.rs`. So menus,
 //! buttons, keys and tests have one way in, and no frame waits for drawing or reading.
 
 mod add;
