@@ -10,9 +10,9 @@ scenes=$(find tests/golden scenes/gallery -name '*.ron' ! -path '*/parts/*' | LC
 levels=("$@")
 if [ ${#levels[@]} = 0 ]; then
     levels=(x86-64)
-    loader=$(ls /lib64/ld-linux-x86-64.so.2 /lib/ld-linux-x86-64.so.2 2>/dev/null | head -n 1)
+    loader=/lib64/ld-linux-x86-64.so.2
     for level in x86-64-v2 x86-64-v3 x86-64-v4; do
-        if [ -n "$loader" ] && "$loader" --help | grep -q "$level (supported"; then
+        if [ -x "$loader" ] && "$loader" --help | grep "$level (supported" >/dev/null; then
             levels+=("$level")
         else
             echo "skipped: this machine has no $level"
