@@ -294,12 +294,14 @@ impl Document {
                 step.things.insert(name, Change { before, after });
             }
         }
-        let gone: BTreeSet<&Name> =
-            step.things.iter().filter(|(_, change)| change.after.is_none()).map(|(name, _)| name).collect();
-        order.retain(|name| !gone.contains(name));
-        let known: BTreeSet<Name> = order.iter().cloned().collect();
-        let new = step.things.iter().filter(|(name, change)| change.after.is_some() && !known.contains(*name));
-        order.extend(new.map(|(name, _)| name.clone()));
+        // Scenes of very many things are searched only where some come or go.
+        if step.things.values().any(|change| change.before.is_none() || change.after.is_none()) {
+            order.retain(|name| step.things.get(name).is_none_or(|change| change.after.is_some()));
+            let known: BTreeSet<&Name> = order.iter().collect();
+            let new = step.things.iter().filter(|(name, change)| change.after.is_some() && !known.contains(name));
+            let new: Vec<Name> = new.map(|(name, _)| name.clone()).collect();
+            order.extend(new);
+        }
         if order[..] != self.order[..] {
             step.order = Some(Change { before: self.order.clone(), after: order.into() });
         }

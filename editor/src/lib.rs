@@ -4,7 +4,7 @@
 //! |---|---|
 //! | [`document`] | the scene, its file, every edit as a step that can be undone |
 //! | [`worker`], [`screen`] | the thread that draws, from coarse to exact, and what it has drawn |
-//! | [`loader`] | files are read in the background |
+//! | [`loader`], [`picture`] | files are read, and pictures written, in the background |
 //! | [`autosave`], [`files`] | what outlives a crash, and where an editor keeps its own files |
 //! | [`placement`], [`view`] | moving, turning and scaling things; moving the camera |
 //! | [`session`] | the open scene and all of the above at work for it |
@@ -19,6 +19,8 @@ pub mod document;
 pub mod files;
 
 pub mod loader;
+
+pub mod picture;
 
 pub mod placement;
 

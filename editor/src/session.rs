@@ -7,10 +7,12 @@ use crate::{
     document::{Document, Edit},
     files,
     loader::{self, Factory, Loaded, Loading},
+    picture::Writing,
     worker::{How, Worker},
 };
 use snell::{
-    components::name::Name,
+    Frame,
+    components::{name::Name, settings::Settings},
     systems::{
         image::write_atomically,
         registry::Registry,
@@ -88,6 +90,7 @@ pub struct Session {
     pub worker: Worker,
     autosave: Autosave,
     reading: Option<(Loading, Purpose)>,
+    writing: Vec<Writing>,
     wake: Arc<dyn Fn() + Send + Sync>,
     how: How,
     told: Vec<Told>,
@@ -110,6 +113,7 @@ impl Session {
             data,
             worker,
             reading: None,
+            writing: vec![],
             wake,
             how: How::default(),
             told: vec![],
@@ -159,6 +163,18 @@ impl Session {
     #[must_use]
     pub fn reading(&self) -> Option<&str> {
         self.reading.as_ref().map(|(loading, _)| loading.what.as_str())
+    }
+
+    /// The picture that is being written, if one is.
+    #[must_use]
+    pub fn writing(&self) -> Option<&Path> {
+        self.writing.first().map(Writing::file)
+    }
+
+    /// Writes a picture, which was made with `settings`, to a file.
+    pub fn write_picture(&mut self, file: &Path, frame: Arc<Frame>, settings: Settings) {
+        let scene = self.document.file().map_or_else(|| "untitled".into(), Path::to_path_buf);
+        self.writing.push(Writing::new(file.into(), frame, settings, scene, self.waker()));
     }
 
     /// What there is to be told since this was last called.
@@ -231,6 +247,10 @@ impl Session {
 
     /// Takes what has been read meanwhile.
     pub fn poll(&mut self) -> Option<Arrived> {
+        while let Some(at) = self.writing.iter().position(Writing::is_done) {
+            let told = self.writing.remove(at).wait();
+            self.tell(told);
+        }
         let result = self.reading.as_ref()?.0.poll()?;
         let (loading, purpose) = self.reading.take()?;
         Some(match (result, purpose) {
@@ -331,6 +351,15 @@ impl Session {
     /// Waits until what autosave was given is on disk.
     pub fn flush(&self) {
         self.autosave.flush();
+    }
+
+    /// Waits until all that was asked to be written is on disk.
+    pub fn finish(&mut self) {
+        self.flush();
+        for writing in std::mem::take(&mut self.writing) {
+            let told = writing.wait();
+            self.tell(told);
+        }
     }
 
     fn discard_kept(&mut self) {

@@ -19,7 +19,7 @@ impl eframe::App for Window {
     }
 
     fn on_exit(&mut self, _: Option<&eframe::glow::Context>) {
-        self.editor.session().flush();
+        self.editor.finish();
     }
 }
 

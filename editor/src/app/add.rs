@@ -87,6 +87,28 @@ pub(super) fn with_look(thing: &Thing, look: &Look, registry: &Registry) -> Thin
     (look.put)(thing)
 }
 
+/// Whether a tag is of what a material consists of.
+pub(super) fn is_of_material(tag: &str, registry: &Registry) -> bool {
+    registry.get(tag).is_some_and(|entry| matches!(entry.kind, Kind::Effect | Kind::Filling | Kind::Texture))
+}
+
+/// A thing made of a material that is shared, or of its own again, which is then a copy of what it was made of.
+pub(super) fn made_of(document: &Document, thing: &Thing, material: Option<Name>) -> Thing {
+    let registry = document.registry();
+    let mut new = thing.clone();
+    match (&material, &thing.made_of) {
+        (None, Some(before)) => {
+            let before = document.get(before).map(|before| before.components.clone()).unwrap_or_default();
+            new.components.extend(before.into_iter().filter(|(tag, _)| is_of_material(tag, registry)));
+        }
+        // A thing has a material of its own or that of another, not both.
+        (Some(_), _) => new.components.retain(|tag, _| !is_of_material(tag, registry)),
+        (None, None) => {}
+    }
+    new.made_of = material;
+    new
+}
+
 /// A component as it is when it is added.
 pub(super) fn fresh(tag: &str, registry: &Registry) -> Option<Box<dyn AnyComponent>> {
     let mut plain = (registry.get(tag)?.new)();

@@ -38,6 +38,8 @@ pub(super) enum Command {
     /// Takes back the gesture that is going on.
     Abandon,
     Select(Option<Name>),
+    /// Selects the thing that is so many after the selected one in the list.
+    Page(isize),
     /// Adds a thing with a component of a tag.
     Add(&'static str),
     AddMaterial(usize),
@@ -119,6 +121,8 @@ pub(super) const SHORTCUTS: &[Shortcut] = &[
     shortcut("Hide", Modifiers::NONE, Key::H, || Command::Hide),
     shortcut("Delete", Modifiers::NONE, Key::Delete, || Command::Delete),
     shortcut("Rename…", Modifiers::NONE, Key::F2, || Command::AskRename),
+    shortcut("Previous thing", Modifiers::NONE, Key::PageUp, || Command::Page(-1)),
+    shortcut("Next thing", Modifiers::NONE, Key::PageDown, || Command::Page(1)),
     shortcut("Show selected", Modifiers::NONE, Key::F, || Command::Frame),
     shortcut("Render", Modifiers::NONE, Key::F5, || Command::ToggleRender),
     shortcut("Move", Modifiers::NONE, Key::G, || Command::Tool(Tool::Move)),

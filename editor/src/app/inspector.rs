@@ -16,7 +16,7 @@ use snell::{
     prelude::DVec3,
     systems::{
         registry::{AnyComponent, Kind, conflict},
-        scene::{Thing, is_of_model},
+        scene::Thing,
     },
 };
 
@@ -82,21 +82,15 @@ fn name_field(editor: &mut Editor, ui: &mut Ui, name: &Name) {
 
 /// What an object is made of: its own material or one that is shared.
 fn material(editor: &mut Editor, ui: &mut Ui, name: &Name, thing: &Thing) {
-    let document = &editor.session.document;
-    let registry = document.registry();
-    let materials = document
-        .things()
-        .filter(|(other, thing)| !is_of_model(other) && Group::of(thing, registry) == Group::Materials);
-    let materials: Vec<Name> = materials.map(|(name, _)| name.clone()).collect();
+    let materials = editor.listed.of(Group::Materials);
     let mut chosen = thing.made_of.clone();
     ui.horizontal(|ui| {
         ui.label("Material");
         let shown = chosen.as_ref().map_or("Its own", |name| name.as_str()).to_owned();
         let combo = ComboBox::from_id_salt("material").selected_text(shown).show_ui(ui, |ui| {
             ui.selectable_value(&mut chosen, None, "Its own");
-            for material in materials {
-                let text = material.as_str().to_owned();
-                ui.selectable_value(&mut chosen, Some(material), text);
+            for material in materials.iter() {
+                ui.selectable_value(&mut chosen, Some(material.clone()), material.as_str());
             }
         });
         combo
@@ -104,14 +98,18 @@ fn material(editor: &mut Editor, ui: &mut Ui, name: &Name, thing: &Thing) {
             .accessible_name("Material")
             .on_hover_text("A material in the list is shared by all objects that are made of it");
         if let Some(material) = &thing.made_of
-            && ui.button("Edit").on_hover_text("Show the material that is shared").clicked()
+            && ui
+                .button("Edit")
+                .accessible_name("Edit material")
+                .on_hover_text("Show the material that is shared")
+                .clicked()
         {
             editor.ask(Command::Select(Some(material.clone())));
         }
     });
     if chosen != thing.made_of {
-        let edit = Edit::of(format!("Material of {}", name.as_str()), name, Thing { made_of: chosen, ..thing.clone() });
-        editor.ask(Command::Apply(edit));
+        let new = add::made_of(&editor.session.document, thing, chosen);
+        editor.ask(Command::Apply(Edit::of(format!("Material of {}", name.as_str()), name, new)));
     } else if thing.made_of.is_none() {
         look(editor, ui, name, thing);
     }
@@ -223,20 +221,12 @@ fn components(editor: &mut Editor, ui: &mut Ui, name: &Name, thing: &Thing) {
         let mut outcome = (false, None);
         let title = if tag == Transform::TAG { "Placement".into() } else { words(tag) };
         let header = CollapsingHeader::new(RichText::new(title).strong()).id_salt(tag).default_open(true);
-        let shown = header.show(ui, |ui| {
+        header.show(ui, |ui| {
             let mut fields = Fields::new(ui, encoding);
             new.visit(&mut fields);
             outcome = (fields.changed, fields.choose);
             if let Some(fault) = editor.field_fault(name, tag) {
                 ui.label(RichText::new(fault).color(wrong(ui)).small());
-            }
-        });
-        shown.header_response.context_menu(|ui| {
-            if ui.button(format!("Remove {}", words(tag).to_lowercase())).clicked() {
-                let mut without = thing.clone();
-                without.components.remove(tag);
-                let label = format!("Remove {} of {}", words(tag).to_lowercase(), name.as_str());
-                editor.ask(Command::Apply(Edit::of(label, name, without)));
             }
         });
         let (changed, choose) = outcome;
@@ -268,6 +258,8 @@ fn add_component(editor: &mut Editor, ui: &mut Ui, name: &Name, thing: &Thing) {
     let registry = editor.session.document.registry().clone();
     let group = Group::of(thing, &registry);
     let kinds: &[Kind] = match group {
+        // The material that is shared has them.
+        Group::Objects if thing.made_of.is_some() => &[],
         Group::Objects | Group::Materials => &[Kind::Effect, Kind::Filling, Kind::Texture],
         Group::Lights | Group::Camera => &[Kind::Placement],
         Group::Groups => &[],
@@ -299,7 +291,9 @@ fn add_component(editor: &mut Editor, ui: &mut Ui, name: &Name, thing: &Thing) {
             .copied()
             .filter(|tag| registry.get(tag).is_some_and(|entry| kinds.contains(&entry.kind)))
             .collect();
-        if !removable.is_empty() {
+        // A material of nothing is none: what is made of it could not be read again.
+        let is_last = group == Group::Materials && removable.len() == 1;
+        if !removable.is_empty() && !is_last {
             ui.menu_button("− Remove one", |ui| {
                 for tag in removable {
                     if ui.button(words(tag)).clicked() {

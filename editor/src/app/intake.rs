@@ -10,7 +10,6 @@ use snell::{
     },
     prelude::ImageTexture,
     systems::{
-        image::{self, Format, Metadata},
         registry::{AnyComponent, Kind},
         scene::Thing,
     },
@@ -39,7 +38,11 @@ impl Editor {
                 self.session.bring(format!("Add {}", name.as_str()), &name, Thing::default().with(mesh));
             }
             Some(extension) if IMAGES.contains(&extension) => {
-                let Some((name, mut thing)) = self.selected_thing() else {
+                // On what the selected thing is made of, if that is shared.
+                let shared = self.selected_thing().and_then(|(_, thing)| thing.made_of);
+                let shared =
+                    shared.and_then(|name| Some((name.clone(), (**self.session.document.get(&name)?).clone())));
+                let Some((name, mut thing)) = shared.or_else(|| self.selected_thing()) else {
                     self.told = Some(Told::fault("Select the thing that the image is for, then drop it again", vec![]));
                     return;
                 };
@@ -99,14 +102,7 @@ impl Editor {
             self.told = Some(Told::fault("There is no picture to save", vec![]));
             return;
         };
-        let scene = self.session.document.file().map_or_else(|| "untitled".into(), Path::to_path_buf);
-        let metadata = Metadata::of(&frame, &snapshot.settings, &scene);
-        let written = Format::of(file).and_then(|format| image::write(file, format, &frame.picture, &metadata));
-        self.told = Some(match written {
-            Ok(()) if frame.is_complete() => Told::done(format!("Saved {}", file.display())),
-            Ok(()) => Told::done(format!("Saved the part that was drawn: {}", file.display())),
-            Err(why) => Told::fault(why.to_string(), vec![]),
-        });
+        self.session.write_picture(file, frame, snapshot.settings.clone());
     }
 }
 

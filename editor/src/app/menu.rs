@@ -13,7 +13,8 @@ pub(super) fn item(editor: &mut Editor, ui: &mut Ui, label: &'static str) {
     let Some(shortcut) = command::find(label) else { return };
     let keys = shortcut.text(ui.ctx());
     let is_possible = editor.can(label);
-    if ui.add_enabled(is_possible, egui::Button::new(label).shortcut_text(keys)).clicked() {
+    let button = ui.add_enabled(is_possible, egui::Button::new(label).shortcut_text(keys));
+    if button.accessible_name(label).clicked() {
         editor.ask(shortcut.command());
         ui.close();
     }
@@ -29,6 +30,10 @@ pub(super) fn bar(editor: &mut Editor, ui: &mut Ui) {
             }
             ui.separator();
             for label in ["Duplicate", "Rename…", "Hide", "Delete", "Show selected"] {
+                item(editor, ui, label);
+            }
+            ui.separator();
+            for label in ["Previous thing", "Next thing"] {
                 item(editor, ui, label);
             }
         });
@@ -133,6 +138,9 @@ pub(super) fn status(editor: &mut Editor, ui: &mut Ui) {
         if let Some(what) = editor.session.reading() {
             ui.spinner();
             ui.label(format!("Reading {what}"));
+        } else if let Some(file) = editor.session.writing() {
+            ui.spinner();
+            ui.label(format!("Saving {}", file.display()));
         } else if let Some(told) = editor.told.clone() {
             let color = match told.tone {
                 Tone::Done => ui.visuals().text_color(),

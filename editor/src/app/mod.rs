@@ -37,6 +37,7 @@ impl Editor {
     pub fn ui(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.receive(&ctx);
+        self.listed.update(&self.session.document);
         let panel = Frame::side_top_panel(ui.style());
         let side = panel.inner_margin(Margin::symmetric(10, 6));
         Panel::top("menu").show(ui, |ui| menu::bar(self, ui));
@@ -58,8 +59,8 @@ impl Editor {
         CentralPanel::no_frame().show(ui, |ui| viewport::show(self, ui));
         dialog::show(self, ui);
         self.perform(&ctx);
-        if self.session.worker.is_busy() {
-            // Time goes on where no tile comes for a while.
+        if self.session.worker.is_busy() || self.session.writing().is_some() {
+            // Time goes on where no tile comes for a while, and a thread ends a moment after it says so.
             ctx.request_repaint_after(std::time::Duration::from_millis(250));
         }
     }

@@ -28,6 +28,10 @@ impl Editor {
             self.focus = focus;
             self.gesture += 1;
         }
+        if self.dialog.is_none() {
+            // What was to come after a question is not to come after another one.
+            self.next = None;
+        }
         if self.selected.as_ref().is_some_and(|name| self.session.document.get(name).is_none()) {
             self.selected = None;
         }
@@ -128,6 +132,7 @@ impl Editor {
                 self.gesture += 1;
             }
             Command::Select(name) => self.select(name),
+            Command::Page(by) => self.page(by),
             Command::Add(tag) => {
                 let at = self.looked_at();
                 self.added(add::component(&self.session.document, tag, at));
@@ -242,6 +247,19 @@ impl Editor {
         }
         self.selected = name;
         self.drag = None;
+    }
+
+    /// Selects another thing by its place in the list, which goes around.
+    fn page(&mut self, by: isize) {
+        let names = self.listed.all();
+        let Some(last) = names.len().checked_sub(1) else { return };
+        let here = self.selected.as_ref().and_then(|name| names.iter().position(|other| other == name));
+        let next = match here {
+            Some(here) => (here as isize + by).rem_euclid(names.len() as isize) as usize,
+            None if by < 0 => last,
+            None => 0,
+        };
+        self.select(names.get(next).cloned());
     }
 
     fn added(&mut self, made: Option<(Edit, Name)>) {

@@ -8,6 +8,7 @@ use super::{
     gizmo::{Drag, Tool},
     intake::file_field,
     starters::{self, Thumbnails},
+    things::Listed,
     viewport::Viewport,
     why::Why,
 };
@@ -72,6 +73,7 @@ pub struct Editor {
     pub(super) told: Option<Told>,
     pub(super) viewport: Viewport,
     pub(super) thumbnails: Option<Thumbnails>,
+    pub(super) listed: Listed,
     pub(super) why: Why,
     pub(super) chart: Chart,
     pub(super) pending_region: Option<Region>,
@@ -109,6 +111,7 @@ impl Editor {
             told: None,
             viewport: Viewport::default(),
             thumbnails: None,
+            listed: Listed::default(),
             why: Why::default(),
             chart: Chart::default(),
             pending_region: None,
@@ -139,12 +142,17 @@ impl Editor {
         &self.session
     }
 
-    /// Whether anything is being read or drawn.
+    /// Waits until all that was asked to be written is on disk; the last thing a program does with an editor.
+    pub fn finish(&mut self) {
+        self.session.finish();
+    }
+
+    /// Whether anything is being read, drawn or written.
     #[must_use]
     pub fn is_busy(&self) -> bool {
         let session = &self.session;
         let thumbnails = self.thumbnails.as_ref().is_some_and(Thumbnails::is_busy);
-        session.reading().is_some() || session.worker.is_busy() || thumbnails
+        session.reading().is_some() || session.writing().is_some() || session.worker.is_busy() || thumbnails
     }
 
     /// The name of the selected thing.
@@ -257,6 +265,7 @@ impl Editor {
             Some(Arrived::Scene) => {
                 self.selected = None;
                 self.fault = None;
+                self.listed = Listed::default();
                 if !matches!(self.dialog, Some(Dialog::Start | Dialog::Recover(_))) {
                     self.dialog = None;
                 }

@@ -6,11 +6,13 @@ use super::{
     names::{Group, words},
     state::Editor,
 };
+use crate::document::Document;
 use egui::{RichText, ScrollArea, Ui};
 use snell::{
     components::{describe::Describe, hidden::Hidden, name::Name},
     systems::{registry::Kind, scene::is_of_model},
 };
+use std::{collections::BTreeMap, sync::Arc};
 
 /// Shows the list.
 pub(super) fn show(editor: &mut Editor, ui: &mut Ui) {
@@ -31,14 +33,42 @@ pub(super) fn show(editor: &mut Editor, ui: &mut Ui) {
     });
 }
 
+/// The names of all things by group, in the order of the file; made anew only after an edit.
+#[derive(Default)]
+pub(super) struct Listed {
+    groups: BTreeMap<Group, Arc<[Name]>>,
+    /// The state of the document that they are of.
+    state: Option<u64>,
+}
+
+impl Listed {
+    /// Takes in what changed.
+    pub(super) fn update(&mut self, document: &Document) {
+        if self.state == Some(document.state()) {
+            return;
+        }
+        let registry = document.registry();
+        let mut groups: BTreeMap<Group, Vec<Name>> = BTreeMap::new();
+        for (name, thing) in document.things().filter(|(name, _)| !is_of_model(name)) {
+            groups.entry(Group::of(thing, registry)).or_default().push(name.clone());
+        }
+        self.groups = groups.into_iter().map(|(group, names)| (group, names.into())).collect();
+        self.state = Some(document.state());
+    }
+
+    /// Those of a group.
+    pub(super) fn of(&self, group: Group) -> Arc<[Name]> {
+        self.groups.get(&group).cloned().unwrap_or_default()
+    }
+
+    /// All, as they are listed.
+    pub(super) fn all(&self) -> Vec<Name> {
+        self.groups.values().flat_map(|names| names.iter().cloned()).collect()
+    }
+}
+
 fn list(editor: &mut Editor, ui: &mut Ui, group: Group) {
-    let document = &editor.session.document;
-    let registry = document.registry();
-    let names: Vec<Name> = document
-        .things()
-        .filter(|(name, thing)| !is_of_model(name) && Group::of(thing, registry) == group)
-        .map(|(name, _)| name.clone())
-        .collect();
+    let names = editor.listed.of(group);
     if names.is_empty() && group == Group::Groups {
         return;
     }

@@ -16,6 +16,7 @@ use snell::{
     components::{math, primitive::Cost, space::Ray},
     prelude::DVec3,
 };
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The picture as the graphics card has it.
 #[derive(Default)]
@@ -89,20 +90,27 @@ impl Viewport {
         if screen.pixels.is_empty() || size[0] * size[1] == 0 {
             return;
         }
-        let image = |rows: std::ops::Range<u32>| {
-            let (start, end) = (rows.start as usize * size[0], rows.end as usize * size[0]);
-            let pixels = screen.pixels[start..end].iter().map(|[r, g, b]| Color32::from_rgb(*r, *g, *b)).collect();
-            ColorImage::new([size[0], (rows.end - rows.start) as usize], pixels)
+        // Every second pixel or fewer where the graphics card holds no picture of that size.
+        let shrink = size[0].max(size[1]).div_ceil(ui.input(|input| input.max_texture_side).max(1));
+        let image = |rows: std::ops::Range<usize>| {
+            let (start, end) = (rows.start * size[0], rows.end * size[0]);
+            let rows = screen.pixels[start..end].chunks_exact(size[0]).step_by(shrink);
+            let pixels: Vec<_> = rows
+                .flat_map(|row| row.iter().step_by(shrink).map(|[r, g, b]| Color32::from_rgb(*r, *g, *b)))
+                .collect();
+            let columns = size[0].div_ceil(shrink);
+            ColorImage::new([columns, pixels.len() / columns], pixels)
         };
         let options = TextureOptions { magnification: egui::TextureFilter::Nearest, ..TextureOptions::LINEAR };
         match &mut self.texture {
             Some(texture) if self.size == size => {
                 if !rows.is_empty() {
-                    texture.set_partial([0, rows.start as usize], image(rows), options);
+                    let first = rows.start as usize / shrink;
+                    texture.set_partial([0, first], image(first * shrink..rows.end as usize), options);
                 }
             }
             texture => {
-                let image = image(0..size[1] as u32);
+                let image = image(0..size[1]);
                 drop(view);
                 self.size = size;
                 match texture {
@@ -120,9 +128,10 @@ impl Viewport {
     }
 }
 
-/// What a ray meets first: the point, and the name of the object.
+/// What a ray meets first: the point, and the name of the object. A shape from outside that panics is not met.
 pub(super) fn meet(snapshot: &Snapshot, ray: &Ray) -> Option<(DVec3, Option<snell::components::name::Name>)> {
-    let met = snapshot.geometry.closest(ray, f64::INFINITY, &Methods::default(), &mut Cost::default())?;
+    let closest = || snapshot.geometry.closest(ray, f64::INFINITY, &Methods::default(), &mut Cost::default());
+    let met = catch_unwind(AssertUnwindSafe(closest)).ok().flatten()?;
     Some((met.surface.point, snapshot.names.get(met.object as usize).cloned().flatten()))
 }
 
@@ -225,10 +234,13 @@ fn point(editor: &mut Editor, ui: &Ui, response: &egui::Response, place: &Place,
         }
     }
     let [orbits, pans] = [PointerButton::Secondary, PointerButton::Middle].map(|button| response.dragged_by(button));
+    let mut delta = response.drag_delta();
     if response.drag_started() {
-        editor.viewport.pivot = Some(pivot(editor, place, snapshot, at));
+        // A drag is one only after a few points, but begins where the button was pressed.
+        let origin = ui.input(|input| input.pointer.press_origin()).unwrap_or(at);
+        editor.viewport.pivot = Some(pivot(editor, place, snapshot, origin));
+        delta = at - origin;
     }
-    let delta = response.drag_delta();
     if (orbits || pans) && delta != egui::Vec2::ZERO {
         let pivot = editor.viewport.pivot.unwrap_or_else(|| pivot(editor, place, snapshot, at));
         let is_pan = pans || ui.input(|input| input.modifiers.shift);

@@ -14,7 +14,7 @@ use snell::{
 };
 use std::sync::{
     Arc,
-    mpsc::{self, Receiver},
+    mpsc::{self, Receiver, TryRecvError},
 };
 
 /// Most rays through a pixel that are shown one by one.
@@ -51,9 +51,11 @@ impl Why {
     }
 
     fn receive(&mut self) {
-        if let Some(tree) = self.waiting.as_ref().and_then(|receiver| receiver.try_recv().ok()) {
-            self.tree = Some(Arc::new(tree));
-            self.waiting = None;
+        match self.waiting.as_ref().map(Receiver::try_recv) {
+            Some(Ok(tree)) => (self.tree, self.waiting) = (Some(Arc::new(tree)), None),
+            // The thread gave up: a shape from outside panicked.
+            Some(Err(TryRecvError::Disconnected)) => (self.tree, self.waiting) = (None, None),
+            Some(Err(TryRecvError::Empty)) | None => {}
         }
     }
 }

@@ -60,7 +60,7 @@ impl Window {
             self.step();
             let session = self.editor().session();
             let is_shown = session.worker.view().state == session.document.state();
-            if session.reading().is_none() && !session.worker.is_busy() && is_shown {
+            if session.reading().is_none() && session.writing().is_none() && !session.worker.is_busy() && is_shown {
                 break;
             }
             assert!(begun.elapsed() < Duration::from_secs(120), "the editor does not come to rest");
@@ -108,6 +108,28 @@ impl Window {
         self.key(Modifiers::COMMAND, Key::A);
         self.harness.get_by_role_and_label(Role::TextInput, field).type_text(text);
         self.step();
+    }
+
+    /// Adds a step to the last placement in sight.
+    pub(crate) fn add_step(&mut self, kind: &str) {
+        self.menu(&["Add a step"]);
+        // The tools at the top have some of these names, too.
+        let lowest = self.harness.query_all_by_label(kind).max_by(|a, b| a.rect().top().total_cmp(&b.rect().top()));
+        lowest.unwrap_or_else(|| panic!("there is no step “{kind}”")).click();
+        self.step();
+        self.wait();
+    }
+
+    /// Chooses from a list that opens.
+    pub(crate) fn choose(&mut self, list: &str, word: &str) {
+        self.harness.get_by_role_and_label(Role::ComboBox, list).click();
+        self.step();
+        self.menu(&[word]);
+    }
+
+    /// Where the knob of a slider is.
+    pub(crate) fn slider(&self, label: &str) -> egui::Pos2 {
+        self.harness.get_by_role_and_label(Role::Slider, label).rect().center()
     }
 
     pub(crate) fn key(&mut self, modifiers: Modifiers, key: Key) {
@@ -174,4 +196,21 @@ pub(crate) fn rendered(file: &Path) -> String {
     let mut renderer = Renderer::new();
     renderer.load(file).unwrap_or_else(|faults| panic!("{faults}"));
     render(&renderer.snapshot().expect("a snapshot"), &Options::default()).picture.hash()
+}
+
+/// As [`rendered`] of a text.
+pub(crate) fn rendered_text(text: &str) -> String {
+    let mut renderer = Renderer::new();
+    renderer.load_text(text, "scene.ron").unwrap_or_else(|faults| panic!("{faults}\n{text}"));
+    render(&renderer.snapshot().expect("a snapshot"), &Options::default()).picture.hash()
+}
+
+/// A tag as the menus have it: `PointLight` is "Point light".
+pub(crate) fn words(tag: &str) -> String {
+    let letters = tag.char_indices().flat_map(|(at, letter)| {
+        let is_new_word = at > 0 && letter.is_uppercase();
+        let letter = if is_new_word { letter.to_ascii_lowercase() } else { letter };
+        is_new_word.then_some(' ').into_iter().chain([letter])
+    });
+    letters.collect()
 }

@@ -27,7 +27,7 @@ fn drop_file(window: &mut Window, file: &Path) {
     window.wait();
 }
 
-const SCENE: &str = r#"Scene(
+pub(crate) const SCENE: &str = r#"Scene(
     version: 1,
     settings: (width: 60, height: 40),
     entities: {
@@ -183,4 +183,85 @@ fn another_scene_is_not_opened_before_changes_are_saved_or_not_wanted() {
     window.wait();
     assert!(fs::read_to_string(&file).expect("a text").contains("Sphere(2)"));
     assert!(window.text().contains("Checker"), "{}", window.text());
+}
+
+/// A question that was not answered once let the next scene be opened without one.
+#[test]
+fn a_question_that_is_closed_is_asked_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = Window::open(folder.path(), None);
+    window.click("Ball");
+    window.wait();
+    window.menu(&["Ball"]);
+    window.set("Radius", "2");
+    let there = scene(folder.path());
+    window.key(Modifiers::COMMAND, Key::N);
+    window.click("Mirrors");
+    // Saved first, but in place of another file, and that is not wanted either.
+    window.click("Save");
+    window.set("File name", there.to_str().expect("a path"));
+    window.click("Cancel");
+    window.wait();
+    window.key(Modifiers::COMMAND, Key::N);
+    window.click("Mirrors");
+    window.wait();
+    assert!(window.has("Don’t save") && window.text().contains("Sphere(2)"));
+    assert_eq!(fs::read_to_string(&there).expect("a text"), SCENE);
+    window.click("Don’t save");
+    window.wait();
+    assert!(window.text().contains("Silver"));
+}
+
+#[test]
+fn a_scene_that_is_dropped_is_opened_and_those_opened_before_are_at_hand() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    let other = folder.path().join("other.ron");
+    fs::write(&other, SCENE.replace("Sphere(1)", "Sphere(0.5)")).expect("written");
+    let mut window = Window::open(folder.path(), Some(&file));
+    drop_file(&mut window, &other);
+    assert_eq!(window.picture(), rendered(&other));
+    window.menu(&["File", "Open recent", "scene.ron"]);
+    assert_eq!(window.editor().session().document.file().and_then(Path::file_name), file.file_name());
+    assert_eq!(window.picture(), rendered(&file));
+    // By its name, through the dialog; one that is not there is told in it.
+    window.key(Modifiers::COMMAND, Key::O);
+    window.set("File name", folder.path().join("no.ron").to_str().expect("a path"));
+    assert!(window.harness.query_by_label_contains("there is no file").is_some());
+    window.set("File name", other.to_str().expect("a path"));
+    assert_eq!(window.picture(), rendered(&other));
+}
+
+#[test]
+fn an_image_goes_onto_the_material_that_is_shared() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("shared.ron");
+    let text = SCENE.replace(", Diffuse(0.8)]", r#", MadeOf("clay")], "clay": [Diffuse(0.8)]"#);
+    fs::write(&file, text).expect("written");
+    let picture = folder.path().join("dots.png");
+    image::RgbImage::from_fn(4, 4, |x, y| image::Rgb([(x * 60) as u8, (y * 60) as u8, 90]))
+        .save(&picture)
+        .expect("saved");
+    let mut window = Window::open(folder.path(), Some(&file));
+    window.menu(&["ball"]);
+    drop_file(&mut window, &picture);
+    assert_eq!(window.editor().selected().map(|name| name.as_str()), Some("clay"));
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait();
+    assert_eq!(window.picture(), rendered(&file));
+}
+
+/// A picture wider than the graphics card can hold is shown with fewer pixels, and saved with all.
+#[test]
+fn a_picture_wider_than_the_card_can_hold_is_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("wide.ron");
+    fs::write(&file, SCENE.replace("width: 60, height: 40", "width: 5000, height: 700")).expect("written");
+    let window = Window::open(folder.path(), Some(&file));
+    assert_eq!(window.harness.ctx.input(|input| input.max_texture_side), 2048);
+    assert_eq!(window.picture(), rendered(&file));
+    let shot = window.shot();
+    let middle = window.node("Viewport").rect().center();
+    let is_sky = |x: u32| shot.get_pixel(x, middle.y as u32).0.iter().all(|channel| *channel < 30);
+    assert!(!is_sky(middle.x as u32), "the ball is in the middle");
 }

@@ -1,10 +1,13 @@
 //! The whole editor without a window, driven by the names that screen readers see.
 
 mod build;
+mod crash;
 mod driver;
 mod files;
 mod look;
 mod outside_shape;
+mod panels;
+mod pointer;
 #[expect(dead_code, unreachable_pub, reason = "a program as the editor writes it")]
 #[rustfmt::skip]
 mod program;
