@@ -111,6 +111,13 @@ impl Methods {
     pub fn is_default(&self) -> bool {
         *self == Self::default()
     }
+
+    /// These methods if they are not the default ones.
+    #[must_use]
+    #[inline]
+    pub fn other(&self) -> Option<&Self> {
+        (!self.is_default()).then_some(self)
+    }
 }
 
 #[cfg(test)]

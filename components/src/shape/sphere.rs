@@ -32,13 +32,19 @@ impl Default for Sphere {
 /// A sphere as the inner loop sees it.
 #[derive(Clone, Debug)]
 pub struct PackedSphere {
-    /// World space where `ellipsoid` is `None`, else object space.
+    /// World space for a ball, object space for an ellipsoid.
     center: DVec3,
     radius: f64,
-    /// Turns world directions into the sphere's own, for texture coordinates.
-    object_from_world: DMat3,
-    /// Maps of a sphere that its placement makes an ellipsoid.
-    ellipsoid: Option<Box<Ellipsoid>>,
+    /// What tests of balls do not need stands apart, so that they find more balls in the caches.
+    form: Form,
+}
+
+/// What the placement of a sphere makes of it.
+#[derive(Clone, Debug)]
+enum Form {
+    /// The map turns world directions into the sphere's own, for texture coordinates.
+    Ball(Box<DMat3>),
+    Ellipsoid(Box<Ellipsoid>),
 }
 
 #[derive(Clone, Debug)]
@@ -54,7 +60,7 @@ impl PackedSphere {
         (normal, self.center + normal * self.radius)
     }
 
-    #[inline]
+    #[inline(always)]
     fn hit_by(
         &self,
         root: impl Fn(DVec3, f64, &Ray, f64) -> Option<f64>,
@@ -63,9 +69,9 @@ impl PackedSphere {
         cost: &mut Cost,
     ) -> Option<Hit> {
         cost.primitives += 1;
-        let t = match &self.ellipsoid {
-            None => root(self.center, self.radius, ray, t_max),
-            Some(maps) => root(self.center, self.radius, &ray.transformed(&maps.object_from_world), t_max),
+        let t = match &self.form {
+            Form::Ball(_) => root(self.center, self.radius, ray, t_max),
+            Form::Ellipsoid(maps) => root(self.center, self.radius, &ray.transformed(&maps.object_from_world), t_max),
         };
         t.map(|t| Hit { t, part: 0 })
     }
@@ -77,7 +83,7 @@ impl PackedSphere {
 /// neither cancels however far or large the sphere (Haines, Günther, Akenine-Möller: Precision Improvements for
 /// Ray/Sphere Intersection, Ray Tracing Gems 7; `c` as a product after the same chapter's remark on huge spheres).
 #[must_use]
-#[inline]
+#[inline(always)]
 pub fn nearest_root<R: Real>(center: DVec3, radius: f64, ray: &Ray, t_max: f64) -> Option<f64> {
     let d: Vector<R> = real::vector(ray.direction);
     let f = real::minus(real::vector(ray.origin), real::vector(center));
@@ -140,8 +146,8 @@ impl Primitive for Sphere {
             let (center, radius) = (world_from_object.translation, self.radius * scale);
             let margin = 8.0 * f64::EPSILON * (radius + center.abs().max_element());
             let bounds = Bounds { min: center - radius, max: center + radius }.widened(margin);
-            let object_from_world = object_from_world.matrix3;
-            return Ok((Extent::Bounded(bounds), PackedSphere { center, radius, object_from_world, ellipsoid: None }));
+            let form = Form::Ball(Box::new(object_from_world.matrix3));
+            return Ok((Extent::Bounded(bounds), PackedSphere { center, radius, form }));
         }
         // Half-extent of an ellipsoid along each world axis: the norm of that row of the matrix.
         let m = world_from_object.matrix3.transpose();
@@ -150,18 +156,11 @@ impl Primitive for Sphere {
         let bounds = Bounds { min: center - half, max: center + half };
         let margin = 64.0 * f64::EPSILON * (half + center.abs()).max_element();
         let maps = Ellipsoid { object_from_world, world_from_object: *world_from_object };
-        Ok((
-            Extent::Bounded(bounds.widened(margin)),
-            PackedSphere {
-                center: DVec3::ZERO,
-                radius: self.radius,
-                object_from_world: DMat3::IDENTITY,
-                ellipsoid: Some(Box::new(maps)),
-            },
-        ))
+        let form = Form::Ellipsoid(Box::new(maps));
+        Ok((Extent::Bounded(bounds.widened(margin)), PackedSphere { center: DVec3::ZERO, radius: self.radius, form }))
     }
 
-    #[inline]
+    #[inline(always)]
     fn hit(packed: &PackedSphere, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
         packed.hit_by(nearest_root::<f64>, ray, t_max, cost)
     }
@@ -178,38 +177,35 @@ impl Primitive for Sphere {
 
     fn surface(packed: &PackedSphere, ray: &Ray, hit: Hit) -> Surface {
         let surface = Self::surface_without_uv(packed, ray, hit);
-        let local = match &packed.ellipsoid {
-            None => (packed.object_from_world * surface.normal).normalize_or(DVec3::Y),
-            Some(maps) => packed.project(ray.transformed(&maps.object_from_world).at(hit.t)).0,
+        let local = match &packed.form {
+            Form::Ball(object_from_world) => (**object_from_world * surface.normal).normalize_or(DVec3::Y),
+            Form::Ellipsoid(maps) => packed.project(ray.transformed(&maps.object_from_world).at(hit.t)).0,
         };
         Surface { uv: sphere_uv(local), ..surface }
     }
 
     fn surface_without_uv(packed: &PackedSphere, ray: &Ray, hit: Hit) -> Surface {
-        let (point, normal) = match &packed.ellipsoid {
-            None => {
+        let (point, normal, reach) = match &packed.form {
+            Form::Ball(_) => {
                 let (normal, point) = packed.project(ray.at(hit.t));
-                (point, normal)
+                (point, normal, packed.center.abs().max_element() + packed.radius)
             }
-            Some(maps) => {
+            Form::Ellipsoid(maps) => {
                 let (local, at) = packed.project(ray.transformed(&maps.object_from_world).at(hit.t));
                 let normal = (maps.object_from_world.matrix3.transpose() * local).normalize_or(DVec3::Y);
-                (maps.world_from_object.transform_point3(at), normal)
+                let m = maps.world_from_object;
+                let reach = m.translation.abs().max_element() + packed.radius * largest_axis(&m.matrix3);
+                (m.transform_point3(at), normal, reach)
             }
         };
-        let reach = packed.center.abs().max_element() + packed.radius;
-        let reach = packed.ellipsoid.as_ref().map_or(reach, |maps| {
-            let m = maps.world_from_object;
-            m.translation.abs().max_element() + packed.radius * largest_axis(&m.matrix3)
-        });
         let error = Surface::rounding(reach);
         Surface { point, normal, shading_normal: normal, uv: DVec2::ZERO, slot: 0, error }
     }
 
     fn bounding_sphere(packed: &PackedSphere, bounds: &Bounds) -> BoundingSphere {
-        match packed.ellipsoid {
-            None => BoundingSphere::about(packed.center, [packed.center + DVec3::X * packed.radius]),
-            Some(_) => BoundingSphere::of_bounds(bounds),
+        match packed.form {
+            Form::Ball(_) => BoundingSphere::about(packed.center, [packed.center + DVec3::X * packed.radius]),
+            Form::Ellipsoid(_) => BoundingSphere::of_bounds(bounds),
         }
     }
 }

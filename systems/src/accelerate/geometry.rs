@@ -1,6 +1,6 @@
 //! Every shape of a scene, and the tree over them.
 
-use super::pool::{Best, ErasedPool, Nearest};
+use super::pool::{Best, ErasedPool, Nearest, Run};
 use glam::DVec3;
 use snell_components::{
     bvh::{Box32, Bvh},
@@ -16,14 +16,6 @@ const LEAF: usize = 2;
 
 /// Up to so many shapes are tested one by one: preparing a ray for boxes costs more than it saves.
 const FLAT: usize = 4;
-
-/// A run of shapes of one type.
-#[derive(Clone, Copy, Debug)]
-struct Run {
-    pool: u32,
-    first: u32,
-    end: u32,
-}
 
 /// Where a ray met an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,12 +42,12 @@ pub struct Geometry {
     /// Over all bounded shapes, unless they are few.
     tree: Option<Bvh>,
     pools: Vec<Arc<dyn ErasedPool>>,
-    /// Runs of the tree's leaves, in leaf order.
+    /// Runs of shapes that no box holds, which every ray tests; then those of the tree's leaves, in leaf order.
     runs: Vec<Run>,
+    /// How many runs are of the first kind.
+    unbounded: usize,
     /// For each position in the tree's order at which a leaf begins, its runs.
     leaf_runs: Vec<(u32, u32)>,
-    /// Shapes that no box holds; tested by every ray.
-    unbounded: Vec<Run>,
     /// Made when first asked for.
     spheres: OnceLock<Spheres>,
 }
@@ -110,10 +102,10 @@ impl Geometry {
             }
         }
         let whole = |(pool, order): (usize, &Vec<u32>)| Run { pool: pool as u32, first: 0, end: order.len() as u32 };
-        let unbounded: Vec<Run> = orders.iter().enumerate().map(whole).filter(|run| run.end > 0).collect();
+        let mut runs: Vec<Run> = orders.iter().enumerate().map(whole).filter(|run| run.end > 0).collect();
+        let unbounded = runs.len();
 
         let tree = Bvh::build(boxes.into_iter(), LEAF);
-        let mut runs: Vec<Run> = vec![];
         let mut leaf_runs = vec![(0, 0); shapes.len()];
         for leaf in tree.leaves() {
             let start = leaf.start;
@@ -133,7 +125,7 @@ impl Geometry {
         }
         let pools = pools.iter().zip(&orders).map(|(pool, order)| pool.permuted(order)).collect();
         let tree = (shapes.len() > FLAT).then_some(tree);
-        Self { tree, pools, runs, leaf_runs, unbounded, spheres: OnceLock::new() }
+        Self { tree, pools, runs, unbounded, leaf_runs, spheres: OnceLock::new() }
     }
 
     /// The sphere around an object, by its rank in the order of names, if it is bounded; looks through all objects.
@@ -189,51 +181,54 @@ impl Geometry {
         if !ray.is_valid() {
             return None;
         }
-        let mut best = Best { pool: 0, limit: t_max, nearest: None };
-        for run in &self.unbounded {
-            self.search(run, ray, with, &mut best, cost);
-        }
-        if self.tree.is_none() && with.accelerator == Accelerator::Tree {
+        let mut best = Best::within(t_max);
+        if self.tree.is_none() && with.is_default() {
             for run in &self.runs {
-                self.search(run, ray, with, &mut best, cost);
+                self.search(*run, ray, None, &mut best, cost);
             }
         } else {
             self.nearest_of_many(ray, with, &mut best, cost);
         }
-        best.nearest
+        best.nearest()
     }
 
-    /// Searches the shapes that boxes hold; apart, so that a search of few has nothing of it to prepare.
+    /// Searches many shapes, or by other methods; apart, so that a search of few has nothing of it to prepare.
     #[inline(never)]
     fn nearest_of_many(&self, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
-        match (&self.tree, with.accelerator) {
+        let (unbounded, bounded) = self.runs.split_at(self.unbounded);
+        let accelerator = with.accelerator;
+        let with = with.other();
+        for run in unbounded {
+            self.search(*run, ray, with, best, cost);
+        }
+        match (&self.tree, accelerator) {
             (Some(tree), Accelerator::Tree) => tree.walk(ray, best.limit, cost, |leaf, _, cost| {
                 let (begin, end) = self.leaf_runs[leaf.start];
                 for run in &self.runs[begin as usize..end as usize] {
-                    self.search(run, ray, with, best, cost);
+                    self.search(*run, ray, with, best, cost);
                 }
                 best.limit
             }),
-            (_, Accelerator::SphereTree) if !self.runs.is_empty() => {
+            (_, Accelerator::SphereTree) if !bounded.is_empty() => {
                 let Spheres { tree, runs } = self.spheres();
                 tree.walk(ray, best.limit, cost, |own, _, cost| {
                     for run in &runs[own] {
-                        self.search(run, ray, with, best, cost);
+                        self.search(*run, ray, with, best, cost);
                     }
                     best.limit
                 });
             }
             _ => {
-                for run in &self.runs {
-                    self.search(run, ray, with, best, cost);
+                for run in bounded {
+                    self.search(*run, ray, with, best, cost);
                 }
             }
         }
     }
 
-    fn search(&self, run: &Run, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
-        best.pool = run.pool;
-        self.pools[run.pool as usize].closest(run.first as usize..run.end as usize, ray, with, best, cost);
+    #[inline(always)]
+    fn search(&self, run: Run, ray: &Ray, with: Option<&Methods>, best: &mut Best, cost: &mut Cost) {
+        self.pools[run.pool as usize].closest(run, ray, with, best, cost);
     }
 
     /// Whether anything is hit with `0 < t < t_max`.
@@ -242,29 +237,43 @@ impl Geometry {
         if !ray.is_valid() {
             return false;
         }
-        let blocks = |run: &Run, cost: &mut Cost| {
-            self.pools[run.pool as usize].blocks(run.first as usize..run.end as usize, ray, t_max, with, cost)
-        };
-        if self.unbounded.iter().any(|run| blocks(run, cost)) {
+        if self.tree.is_none() && with.is_default() {
+            return self.runs.iter().any(|run| self.blocks(*run, ray, t_max, None, cost));
+        }
+        self.blocked_by_many(ray, t_max, with, cost)
+    }
+
+    #[inline(never)]
+    fn blocked_by_many(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
+        let (unbounded, bounded) = self.runs.split_at(self.unbounded);
+        let accelerator = with.accelerator;
+        let with = with.other();
+        let blocks = |run: &Run, cost: &mut Cost| self.blocks(*run, ray, t_max, with, cost);
+        if unbounded.iter().any(|run| blocks(run, cost)) {
             return true;
         }
-        match (&self.tree, with.accelerator) {
+        match (&self.tree, accelerator) {
             (Some(tree), Accelerator::Tree) => tree.any(ray, t_max, cost, |leaf, cost| {
                 let (begin, end) = self.leaf_runs[leaf.start];
                 self.runs[begin as usize..end as usize].iter().any(|run| blocks(run, cost))
             }),
-            (_, Accelerator::SphereTree) if !self.runs.is_empty() => {
+            (_, Accelerator::SphereTree) if !bounded.is_empty() => {
                 let Spheres { tree, runs } = self.spheres();
                 tree.any(ray, t_max, cost, |own, cost| runs[own].iter().any(|run| blocks(run, cost)))
             }
-            _ => self.runs.iter().any(|run| blocks(run, cost)),
+            _ => bounded.iter().any(|run| blocks(run, cost)),
         }
+    }
+
+    #[inline(always)]
+    fn blocks(&self, run: Run, ray: &Ray, t_max: f64, with: Option<&Methods>, cost: &mut Cost) -> bool {
+        self.pools[run.pool as usize].blocks(run, ray, t_max, with, cost)
     }
 
     fn spheres(&self) -> &Spheres {
         self.spheres.get_or_init(|| {
             let each = |&Run { pool, first, end }: &Run| (first..end).map(move |i| Run { pool, first: i, end: i + 1 });
-            let shapes: Vec<Run> = self.runs.iter().flat_map(each).collect();
+            let shapes: Vec<Run> = self.runs[self.unbounded..].iter().flat_map(each).collect();
             let sphere = |run: &Run| self.pools[run.pool as usize].bounding_sphere(run.first);
             let tree = SphereTree::build(shapes.iter().filter_map(sphere));
             let runs = tree.order().iter().map(|&i| shapes[i as usize]).collect();

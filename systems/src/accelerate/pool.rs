@@ -1,6 +1,5 @@
 //! All packed shapes of one type, behind an interface that knows no type.
 
-use core::ops::Range;
 use glam::DVec3;
 use snell_components::{
     method::Methods,
@@ -22,6 +21,17 @@ pub struct Nearest {
     pub object: u32,
 }
 
+/// A run of shapes of one type.
+#[derive(Clone, Copy, Debug)]
+pub struct Run {
+    /// Of which pool.
+    pub pool: u32,
+    /// The first shape.
+    pub first: u32,
+    /// The shape after the last.
+    pub end: u32,
+}
+
 /// Shapes of one type as the tree sees them; called once per run.
 pub trait ErasedPool: Send + Sync {
     /// How far each shape reaches.
@@ -34,10 +44,13 @@ pub trait ErasedPool: Send + Sync {
     fn objects(&self) -> &[u32];
 
     /// The nearest hit within the run that beats `best`: nearer, or as near and of an earlier object.
-    fn closest(&self, run: Range<usize>, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost);
+    ///
+    /// The methods are none where they are the default ones: chosen once per run, so that the usual loop knows of no
+    /// other.
+    fn closest(&self, run: Run, ray: &Ray, with: Option<&Methods>, best: &mut Best, cost: &mut Cost);
 
     /// Whether a shape of the run blocks the ray before `t_max`.
-    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool;
+    fn blocks(&self, run: Run, ray: &Ray, t_max: f64, with: Option<&Methods>, cost: &mut Cost) -> bool;
 
     /// The sphere around a shape, if it is bounded.
     fn bounding_sphere(&self, index: u32) -> Option<BoundingSphere>;
@@ -55,12 +68,33 @@ pub trait ErasedPool: Send + Sync {
 /// A search for the nearest hit.
 #[derive(Clone, Copy, Debug)]
 pub struct Best {
-    /// Number of the pool being searched.
-    pub pool: u32,
-    /// Nothing beyond this matters.
+    /// Nothing beyond this matters: the distance of what was found, if anything was.
     pub limit: f64,
+    part: u32,
+    pool: u32,
+    index: u32,
+    /// `NOTHING` before anything was found.
+    object: u32,
+}
+
+/// More than the rank of any object.
+const NOTHING: u32 = u32::MAX;
+
+impl Best {
+    /// Nothing found yet, up to a distance.
+    #[inline]
+    #[must_use]
+    pub fn within(limit: f64) -> Self {
+        Self { limit, part: 0, pool: 0, index: 0, object: NOTHING }
+    }
+
     /// What was found.
-    pub nearest: Option<Nearest>,
+    #[inline]
+    #[must_use]
+    pub fn nearest(&self) -> Option<Nearest> {
+        let Self { limit, part, pool, index, object } = *self;
+        (object != NOTHING).then_some(Nearest { hit: Hit { t: limit, part }, pool, index, object })
+    }
 }
 
 /// All packed shapes of type `P`.
@@ -82,16 +116,14 @@ impl<P: Primitive> Pool<P> {
         this
     }
 
-    #[inline]
-    fn search(&self, run: Range<usize>, best: &mut Best, mut hit: impl FnMut(&P::Packed, f64) -> Option<Hit>) {
-        let first = run.start;
-        for (n, shape) in self.shapes[run].iter().enumerate() {
-            if let Some(hit) = hit(shape, best.limit) {
-                let index = first + n;
-                let object = self.objects[index];
-                if best.nearest.is_none_or(|nearest| hit.t < nearest.hit.t || object < nearest.object) {
-                    best.limit = hit.t;
-                    best.nearest = Some(Nearest { hit, pool: best.pool, index: index as u32, object });
+    #[inline(always)]
+    fn search(&self, run: Run, best: &mut Best, mut hit: impl FnMut(&P::Packed, f64) -> Option<Hit>) {
+        let range = run.first as usize..run.end as usize;
+        for ((shape, &object), index) in self.shapes[range.clone()].iter().zip(&self.objects[range]).zip(run.first..) {
+            if let Some(Hit { t, part }) = hit(shape, best.limit) {
+                // No hit is beyond the limit.
+                if t < best.limit || object < best.object {
+                    *best = Best { limit: t, part, pool: run.pool, index, object };
                 }
             }
         }
@@ -116,21 +148,18 @@ impl<P: Primitive> ErasedPool for Pool<P> {
         &self.objects
     }
 
-    fn closest(&self, run: Range<usize>, ray: &Ray, with: &Methods, best: &mut Best, cost: &mut Cost) {
-        // Chosen once per run, so that the usual loop knows of no other method.
-        if with.is_default() {
-            self.search(run, best, |shape, limit| P::hit(shape, ray, limit, cost));
-        } else {
-            self.search(run, best, |shape, limit| P::hit_with(shape, ray, limit, with, cost));
+    fn closest(&self, run: Run, ray: &Ray, with: Option<&Methods>, best: &mut Best, cost: &mut Cost) {
+        match with {
+            None => self.search(run, best, |shape, limit| P::hit(shape, ray, limit, cost)),
+            Some(with) => self.search(run, best, |shape, limit| P::hit_with(shape, ray, limit, with, cost)),
         }
     }
 
-    fn blocks(&self, run: Range<usize>, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
-        let mut shapes = self.shapes[run].iter();
-        if with.is_default() {
-            shapes.any(|shape| P::blocks(shape, ray, t_max, cost))
-        } else {
-            shapes.any(|shape| P::blocks_with(shape, ray, t_max, with, cost))
+    fn blocks(&self, run: Run, ray: &Ray, t_max: f64, with: Option<&Methods>, cost: &mut Cost) -> bool {
+        let mut shapes = self.shapes[run.first as usize..run.end as usize].iter();
+        match with {
+            None => shapes.any(|shape| P::blocks(shape, ray, t_max, cost)),
+            Some(with) => shapes.any(|shape| P::blocks_with(shape, ray, t_max, with, cost)),
         }
     }
 

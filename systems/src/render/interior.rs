@@ -54,6 +54,12 @@ pub(super) struct Sides<'a> {
 }
 
 impl Interior {
+    /// Whether the point lies in no clear body, where light loses nothing on its way.
+    #[inline]
+    pub(super) fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     /// The bodies that a point lies in: those which a ray from there leaves more often than it enters them.
     #[must_use]
     pub fn around(point: DVec3, geometry: &Geometry, materials: &Materials) -> Self {

@@ -40,6 +40,7 @@ pub(super) struct Point<'a> {
 }
 
 impl<'a> Point<'a> {
+    #[inline(always)]
     pub(super) fn new(snapshot: &'a Snapshot, methods: &'a Methods, ray: &Ray, met: &Nearest, key: Key) -> Self {
         let Snapshot { geometry, materials, .. } = snapshot;
         let (mut surface, material) = match &materials.of_object[met.object as usize] {
@@ -69,6 +70,7 @@ impl<'a> Point<'a> {
 
     /// Sum of the ambient, diffuse and highlight terms; `weight` is what it is multiplied by in the pixel, `interior`
     /// are the clear bodies that the ray came through.
+    #[inline]
     pub(super) fn local<O: Observer>(
         &self,
         weight: Rgb,
@@ -157,6 +159,7 @@ impl<'a> Point<'a> {
     }
 
     /// What arrives of a light at the point, if it shines on this side.
+    #[inline(always)]
     fn arriving(
         &self,
         start: DVec3,
@@ -219,7 +222,7 @@ impl<'a> Point<'a> {
             let met = clear.nearest(&ray, rest, self.methods, &mut cost);
             let met = met.filter(|met| met.hit.t < rest);
             let length = ray.direction.length();
-            if !materials.media.is_empty() {
+            if !interior.is_empty() {
                 let t = met.map_or(rest, |met| met.hit.t);
                 visible *= interior::transmittance(interior.medium(materials), t * length);
             }

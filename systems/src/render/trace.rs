@@ -90,14 +90,17 @@ pub(super) fn light_along<B: Beside, O: Observer>(
     // The top of the stack is kept apart: most rays have one follower at most.
     let mut top = Some(Pending { ray, beside, weight, depth: 0, inside: 0, wavelength: None, key });
     let mut below: SmallVec<[Pending<B>; 8]> = SmallVec::new();
-    while let Some(Pending { ray, beside, mut weight, depth, inside, wavelength, key }) =
-        top.take().or_else(|| below.pop())
-    {
+    loop {
+        let next = match top.take() {
+            None => below.pop(),
+            next => next,
+        };
+        let Some(Pending { ray, beside, mut weight, depth, inside, wavelength, key }) = next else { break };
         let mut cost = Cost::default();
         let met = snapshot.geometry.nearest(&ray, f64::INFINITY, methods, &mut cost);
         counts.add(cost);
         let interior = interiors.get(inside);
-        if !materials.media.is_empty() {
+        if !interior.is_empty() {
             let travelled = met.map_or(f64::INFINITY, |met| met.hit.t);
             weight *= interior::transmittance(interior.medium(materials), travelled);
         }
@@ -171,7 +174,9 @@ pub(super) fn light_along<B: Beside, O: Observer>(
                 let key = key.child(u32::MAX - n as u32);
                 let beside = B::go_on(&beside, &point, branch);
                 let next = Pending { ray, beside, weight, depth: depth + 1, inside, wavelength, key };
-                below.extend(top.replace(next));
+                if let Some(before) = top.replace(next) {
+                    below.push(before);
+                }
             }
         }
     }
