@@ -12,7 +12,10 @@ mod raster;
 use driver::Window;
 use egui::{Key, Modifiers, PointerButton, pos2, vec2};
 use egui_kittest::kittest::Queryable;
-use std::time::{Duration, Instant};
+use std::{
+    collections::BTreeMap,
+    time::{Duration, Instant},
+};
 
 /// Hills of 1 002 528 triangles, a ball on them, and four lights.
 const SCENE: &str = r#"Scene(
@@ -38,11 +41,11 @@ fn ms(time: Duration) -> String {
     format!("{:.1} ms", 1000.0 * time.as_secs_f64())
 }
 
-/// What is looked at: frames as they are drawn, and answers.
+/// What is looked at: frames as they are drawn, and answers by the kind of edit.
 #[derive(Default)]
 struct Seen {
     frames: Vec<Duration>,
-    answers: Vec<Duration>,
+    answers: BTreeMap<&'static str, Vec<Duration>>,
 }
 
 impl Seen {
@@ -56,7 +59,7 @@ impl Seen {
     }
 
     /// Frames until the last edit shows, coarse.
-    fn answered(&mut self, window: &mut Window) {
+    fn answered(&mut self, window: &mut Window, kind: &'static str) {
         let begun = Instant::now();
         loop {
             self.frame(window);
@@ -64,10 +67,66 @@ impl Seen {
             let view = session.worker.view();
             let is_there = view.state == session.document.state() && view.first_coarse.is_some();
             if is_there || begun.elapsed() > Duration::from_secs(60) {
-                self.answers.extend(view.first_coarse);
+                self.answers.entry(kind).or_default().extend(view.first_coarse);
                 return;
             }
         }
+    }
+
+    /// A click on what has a name, and its answer.
+    fn click(&mut self, window: &mut Window, label: &str, kind: &'static str) {
+        let all: Vec<_> = window.harness.query_all_by_label(label).collect();
+        let Some(node) = all.last() else { return };
+        node.click();
+        self.frame(window);
+        self.answered(window, kind);
+    }
+
+    /// A key, and its answer.
+    fn key(&mut self, window: &mut Window, modifiers: Modifiers, key: Key, kind: &'static str) {
+        window.harness.key_press_modifiers(modifiers, key);
+        self.answered(window, kind);
+    }
+
+    /// A number, and its answer.
+    fn number(&mut self, window: &mut Window, field: &str, number: &str, kind: &'static str) {
+        window.write(field, number);
+        self.answered(window, kind);
+        window.release_focus();
+    }
+
+    /// The ball is moved by its handle, a dozen edits in one drag.
+    fn drag(&mut self, window: &mut Window, by: f32) {
+        let handle = window.harness.query_by_label("Move along x").map(|node| node.rect().center());
+        let Some(knob) = handle else { return };
+        window.harness.hover_at(knob);
+        self.frame(window);
+        window.harness.drag_at(knob);
+        for step in 0..12 {
+            window.harness.hover_at(knob + vec2(by * step as f32, 0.0));
+            self.answered(window, "a thing dragged");
+        }
+        window.harness.drop_at(knob);
+        self.answered(window, "a thing dragged");
+    }
+
+    /// The camera goes around, a dozen edits.
+    fn orbit(&mut self, window: &mut Window) {
+        let at = pos2(640.0, 420.0);
+        window.harness.event(egui::Event::PointerMoved(at));
+        let press = |pressed| egui::Event::PointerButton {
+            pos: at,
+            button: PointerButton::Secondary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        };
+        window.harness.event(press(true));
+        for step in 0..12 {
+            window.harness.event(egui::Event::PointerMoved(at + vec2(6.0 * step as f32, 2.0)));
+            self.answered(window, "the camera turned");
+        }
+        window.harness.event(press(false));
+        self.frame(window);
     }
 }
 
@@ -80,73 +139,44 @@ fn main() {
     let mut seen = Seen::default();
     let begun = Instant::now();
     let mut round = 0_u32;
-    window.click("Ball");
+    let none = Modifiers::NONE;
     while begun.elapsed().as_secs_f64() < seconds {
         round += 1;
-        match round % 5 {
-            // The ball is moved by its handle, a dozen edits in one drag.
-            0 => {
-                let handle = window.harness.query_by_label("Move along x").map(|node| node.rect().center());
-                let Some(knob) = handle else { continue };
-                window.harness.hover_at(knob);
-                seen.frame(&mut window);
-                window.harness.drag_at(knob);
-                for step in 0..12 {
-                    let by = if round.is_multiple_of(2) { 4.0 } else { -4.0 };
-                    window.harness.hover_at(knob + vec2(by * step as f32, 0.0));
-                    seen.answered(&mut window);
-                }
-                window.harness.drop_at(knob);
-                seen.answered(&mut window);
-            }
-            // A number is typed.
-            1 => {
-                window.write("Radius", if round.is_multiple_of(2) { "1" } else { "1.25" });
-                seen.answered(&mut window);
-            }
-            // The camera goes around, a dozen edits.
-            2 => {
-                let at = pos2(640.0, 420.0);
-                window.harness.event(egui::Event::PointerMoved(at));
-                let press = |pressed| egui::Event::PointerButton {
-                    pos: at,
-                    button: PointerButton::Secondary,
-                    pressed,
-                    modifiers: Modifiers::NONE,
-                };
-                window.harness.event(press(true));
-                for step in 0..12 {
-                    window.harness.event(egui::Event::PointerMoved(at + vec2(6.0 * step as f32, 2.0)));
-                    seen.answered(&mut window);
-                }
-                window.harness.event(press(false));
-                seen.frame(&mut window);
-            }
-            // Taken back and done again.
-            3 => {
-                for _ in 0..4 {
-                    window.harness.key_press_modifiers(Modifiers::COMMAND, Key::Z);
-                    seen.answered(&mut window);
-                }
-                for _ in 0..4 {
-                    window.harness.key_press_modifiers(Modifiers::COMMAND, Key::Y);
-                    seen.answered(&mut window);
-                }
-            }
-            // Half a second of looking on while the picture is refined.
-            _ => (0..30).for_each(|_| seen.frame(&mut window)),
+        let (w, is_even) = (&mut window, round.is_multiple_of(2));
+        w.click("Ball");
+        seen.drag(w, if is_even { 4.0 } else { -4.0 });
+        seen.number(w, "Radius", if is_even { "1" } else { "1.25" }, "a number of the ball");
+        seen.orbit(w);
+        for _ in 0..4 {
+            seen.key(w, Modifiers::COMMAND, Key::Z, "taken back, done again");
         }
+        for _ in 0..4 {
+            seen.key(w, Modifiers::COMMAND, Key::Y, "taken back, done again");
+        }
+        // Of the million triangles themselves: where they are, what they are made of, whether they are there.
+        w.click("Hills");
+        seen.number(w, "Color", if is_even { "0.5, 0.6, 0.4" } else { "#7a6a50" }, "the colour of the million");
+        seen.click(w, "See-through", "the million made clear");
+        seen.key(w, Modifiers::COMMAND, Key::Z, "the million made clear");
+        seen.key(w, none, Key::H, "the million hidden and shown");
+        seen.key(w, none, Key::H, "the million hidden and shown");
+        seen.drag(w, 3.0);
+        seen.key(w, Modifiers::COMMAND, Key::D, "the million copied and the copy deleted");
+        seen.key(w, none, Key::Delete, "the million copied and the copy deleted");
+        w.click("Hills");
+        seen.key(w, none, Key::Delete, "the million deleted and brought back");
+        seen.key(w, Modifiers::COMMAND, Key::Z, "the million deleted and brought back");
+        w.click("Hills");
+        seen.number(w, "Hills", if is_even { "3" } else { "4" }, "a million other triangles");
+        // Half a second of looking on while the picture is refined.
+        (0..30).for_each(|_| seen.frame(w));
     }
-    let Seen { mut frames, mut answers } = seen;
-    let (longest_frame, longest_answer) = (frames.iter().max().copied(), answers.iter().max().copied());
-    println!(
-        "{round} rounds in {:.0} s; first coarse picture after an edit: median {}, longest {} of {}; frames: median {}, longest {} of {}",
-        begun.elapsed().as_secs_f64(),
-        ms(median(&mut answers)),
-        ms(longest_answer.unwrap_or_default()),
-        answers.len(),
-        ms(median(&mut frames)),
-        ms(longest_frame.unwrap_or_default()),
-        frames.len(),
-    );
+    let Seen { mut frames, answers } = seen;
+    let longest = frames.iter().max().copied().unwrap_or_default();
+    println!("{round} rounds in {:.0} s; from an edit to its first coarse picture:", begun.elapsed().as_secs_f64());
+    for (kind, mut times) in answers {
+        let longest = times.iter().max().copied().unwrap_or_default();
+        println!("{kind:42} {:4} edits, median {:>9}, longest {:>9}", times.len(), ms(median(&mut times)), ms(longest));
+    }
+    println!("frames: {}, median {}, longest {}", frames.len(), ms(median(&mut frames)), ms(longest));
 }

@@ -1,6 +1,6 @@
 //! The panel that measures settings on the open scene: speed against accuracy.
 
-use super::state::Editor;
+use super::{command::Command, dialog::Dialog, state::Editor};
 use crate::loader::Factory;
 use egui::{ColorImage, Context, RichText, ScrollArea, TextureHandle, TextureOptions, Ui, vec2};
 use snell::charts::{
@@ -109,11 +109,19 @@ pub(super) fn show(editor: &mut Editor, ui: &mut Ui) {
     if editor.chart.state != editor.session.document.state() {
         ui.label(RichText::new("The scene has changed since").weak().small());
     }
+    let mut large = None;
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {
-        let image = egui::Image::new(picture).max_width(ui.available_width()).alt_text("Chart");
-        ui.add(image).on_hover_text("Time to the right, error upward: the lower left is best");
+        let image =
+            egui::Image::new(picture).max_width(ui.available_width()).alt_text("Chart").sense(egui::Sense::click());
+        let tip = "Time to the right, error upward: the lower left is best.\nClick to see it large";
+        if ui.add(image).on_hover_text(tip).clicked() {
+            large = Some(picture.clone());
+        }
         for sentence in editor.chart.says.iter().filter(|sentence| !sentence.is_empty()) {
             ui.label(sentence);
         }
     });
+    if let Some(picture) = large {
+        editor.ask(Command::Show(Dialog::Chart(picture)));
+    }
 }

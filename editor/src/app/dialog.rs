@@ -11,6 +11,8 @@ pub(super) enum Dialog {
     Start,
     /// A file to open or to write.
     Files(Browser),
+    /// A chart, as large as it is.
+    Chart(egui::TextureHandle),
     /// What was told, in full.
     Told(Told),
     /// There are changes that are not saved, and something is to be done that loses them.
@@ -41,10 +43,20 @@ pub(super) fn show(editor: &mut Editor, ui: &mut Ui) {
                     editor.ask(command);
                 }
             }
+            Dialog::Chart(chart) => {
+                let room = ui.ctx().content_rect().size() - egui::vec2(80.0, 120.0);
+                ui.add(egui::Image::new(&*chart).max_size(room).alt_text("Chart, large"));
+                stays &= !button(ui, "Close");
+            }
             Dialog::Told(told) => {
                 ui.set_width(620.0);
                 tell(ui, told);
-                stays &= !button(ui, "Close");
+                ui.horizontal(|ui| {
+                    stays &= !button(ui, "Close");
+                    if !told.lines.is_empty() && button(ui, "Copy all") {
+                        ui.ctx().copy_text(told.lines.join("\n"));
+                    }
+                });
             }
             Dialog::Unsaved => {
                 ui.set_width(380.0);
@@ -130,7 +142,4 @@ fn tell(ui: &mut Ui, told: &Told) {
             ui.label(RichText::new(line).monospace());
         }
     });
-    if ui.small_button("Copy all").clicked() {
-        ui.ctx().copy_text(told.lines.join("\n"));
-    }
 }

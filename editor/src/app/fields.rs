@@ -92,6 +92,12 @@ impl FieldVisitor for Fields<'_> {
     }
 }
 
+/// The unit that a field's description tells of, if that is not the scene's own unit of length.
+fn unit(about: &str) -> Option<&'static str> {
+    let is_said = |word: &str| about.split([' ', ',', ';']).any(|said| said == word);
+    [("degrees", "°"), ("pixels", "px")].into_iter().find(|(word, _)| is_said(word)).map(|(_, unit)| unit)
+}
+
 /// A number to begin with where there was none.
 pub(super) fn start_number(range: Range) -> f64 {
     if range.contains(1.0) {
@@ -145,6 +151,9 @@ impl Row {
         let changed = self.line(ui, |ui| {
             let (by_text, why) = typed(ui, &self.name, x, range, whole, 64.0);
             fault = why;
+            if let Some(unit) = unit(self.spec.about) {
+                ui.label(RichText::new(unit).weak());
+            }
             let by_hand = if is_share {
                 ui.spacing_mut().slider_width = (ui.available_width() - 8.0).clamp(40.0, 140.0);
                 // What it shows may be rounded; only what a hand does counts.

@@ -24,9 +24,7 @@ use snell::{
 pub(super) fn show(editor: &mut Editor, ui: &mut Ui) {
     let Some((name, thing)) = editor.selected_thing() else {
         ui.add_space(24.0);
-        ui.vertical_centered(|ui| {
-            ui.label(RichText::new("Click a thing in the picture or in the list to change it").weak())
-        });
+        ui.vertical_centered(|ui| ui.label(RichText::new("Click a thing in the picture or in the list").weak()));
         return;
     };
     ScrollArea::vertical().auto_shrink([false, false]).show(ui, |ui| {

@@ -47,7 +47,9 @@ impl Editor {
             .default_size(200.0)
             .size_range(150.0..=360.0)
             .show(ui, |ui| things::show(self, ui));
-        Panel::right("details").frame(side).default_size(370.0).size_range(320.0..=560.0).show(ui, |ui| {
+        Panel::right("details").frame(side).default_size(404.0).size_range(360.0..=560.0).show(ui, |ui| {
+            // As wide whatever it shows, or everything would shift when another tab is chosen.
+            ui.set_min_width(ui.available_width());
             menu::tabs(self, ui);
             match self.tab {
                 Tab::Thing => inspector::show(self, ui),

@@ -28,6 +28,12 @@ impl Editor {
             self.focus = focus;
             self.gesture += 1;
         }
+        let document = &self.session.document;
+        let is_nothing = document.things().next().is_none() && document.file().is_none() && !document.is_changed();
+        if self.dialog.is_none() && is_nothing && self.session.reading().is_none() {
+            // As after a start with a scene that has faults.
+            self.dialog = Some(Dialog::Start);
+        }
         if self.dialog.is_none() {
             // What was to come after a question is not to come after another one.
             self.next = None;

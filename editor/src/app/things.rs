@@ -106,6 +106,8 @@ fn row(editor: &mut Editor, ui: &mut Ui, name: &Name, group: Group) {
             if ui.checkbox(&mut is_shown, "").accessible_name(label).on_hover_text(tip).changed() {
                 editor.ask(Command::ToggleHidden(name.clone()));
             }
+        } else {
+            ui.add_space(ui.spacing().interact_size.y);
         }
         let size = egui::vec2(ui.available_width(), height);
         let text = RichText::new(name.as_str());

@@ -10,6 +10,7 @@ use snell::{
         registry::{Kind, Registry},
     },
 };
+use snell_editor::worker::Phase;
 use std::process::ExitCode;
 
 fn small(folder: &std::path::Path, starter: &str) -> Window {
@@ -147,7 +148,11 @@ fn a_stopped_picture_is_saved_as_far_as_it_came() {
     }
     assert!(window.editor().session().worker.view().frame.is_none(), "nothing is drawn unasked");
     window.click("Render");
-    while window.editor().session().worker.view().done == 0 {
+    let is_begun = |window: &Window| {
+        let view = window.editor().session().worker.view();
+        view.phase == Phase::Exact && view.done > 0
+    };
+    while !is_begun(&window) {
         window.step();
     }
     window.step();
