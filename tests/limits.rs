@@ -133,7 +133,8 @@ fn no_camera_that_looks_somewhere_gives_pixels_that_are_no_numbers() {
     ];
     for (name, camera) in cameras {
         let mut renderer = Renderer::new();
-        *renderer.settings() = Settings { width: 16, height: 12, ..Settings::default() };
+        let background = Rgb::new(1.0, 0.0, 1.0);
+        *renderer.settings() = Settings { width: 16, height: 12, background, ..Settings::default() };
         let world = &mut renderer.world;
         world.spawn(camera);
         world.spawn(PointLight { position: DVec3::new(3.0, 5.0, 4.0), ..PointLight::default() });
@@ -142,6 +143,8 @@ fn no_camera_that_looks_somewhere_gives_pixels_that_are_no_numbers() {
         let frame = render(&renderer.snapshot().expect(name), &Options::default());
         assert_eq!(frame.counts.not_finite, 0, "{name}");
         assert!(frame.picture.pixels.iter().flatten().all(|x| x.is_finite()), "{name}");
+        // A ray that is none meets nothing: something must be seen.
+        assert!(frame.picture.pixels.iter().any(|pixel| *pixel != [1.0, 0.0, 1.0]), "{name}: nothing is seen");
     }
     // What is no camera is refused: where it stands is where it looks, an angle of nothing or of all, no picture at all.
     let scene = |camera: &str, settings: &str| {
