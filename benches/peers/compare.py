@@ -17,6 +17,8 @@ import meshes
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+# What all others are compared with: finds out as much about a hit as a call of Embree.
+OURS = "snell"
 KINDS = ["primary", "shadow", "mirror", "diffuse"]
 
 # Distances may differ by rounding: the peers' are f32. At the rim of a triangle that may decide a hit.
@@ -101,7 +103,10 @@ def build_crates(work, native):
 def contestants(only, work):
     """Name → command without mesh and rays; Snell first."""
     snell = build_snell()
-    found = {"snell": lambda mesh, rays: [snell, "contestant", mesh, rays]}
+    found = {
+        name: lambda mesh, rays, g=goal: [snell, "contestant", mesh, rays, g]
+        for name, goal in [(OURS, "nearest"), ("snell-search", "search"), ("snell-surface", "surface")]
+    }
     wanted = lambda names: [name for name in names if not only or name in only]
     embree = wanted(["embree-single", "embree-bvh8", "embree-packet8", "embree-packet16", "embree-single-robust"])
     program = embree and build_embree(work)
@@ -153,7 +158,7 @@ def check(mesh, results):
     for (task, threads), row in results.items():
         if task == "build" or threads != 1:
             continue
-        ours = row["snell"][0]
+        ours = row[OURS][0]
         for name, answers in row.items():
             theirs = answers[0]
             apart = abs(theirs["hits"] - ours["hits"]) / max(ours["hits"], 1)
@@ -170,7 +175,7 @@ def summary(mesh, results):
     for (task, threads), row in results.items():
         per_second = {name: [a["items"] / a["cpu"] / 1e6 for a in answers] for name, answers in row.items()}
         for name, answers in row.items():
-            ratios = [ours / theirs for ours, theirs in zip(per_second["snell"], per_second[name])]
+            ratios = [ours / theirs for ours, theirs in zip(per_second[OURS], per_second[name])]
             record = {
                 "mesh": mesh,
                 "task": task,

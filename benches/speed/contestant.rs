@@ -2,10 +2,16 @@
 
 use crate::{
     clock::{Spent, spent},
-    rays::{Kind, Rays},
-    subject::{Subject, build},
+    rays::{Kind, Rays, Search},
+    subject::{Subject, build, snapshot},
 };
-use snell::{Options, Picture, Renderer, components::color, render, systems::accelerate::Geometry};
+use clap::ValueEnum;
+use snell::{
+    Options, Picture, Renderer,
+    components::{color, primitive::Degenerate},
+    prelude::{DAffine3, Primitive},
+    render,
+};
 use std::{
     error::Error,
     fs,
@@ -13,20 +19,40 @@ use std::{
     path::Path,
 };
 
+/// How much is to be found out for each ray; shadow rays only ask whether anything is met.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum Goal {
+    /// Distance and triangle, in the mesh alone.
+    Search,
+    /// Distance, object, triangle and its normal, in a scene: what a call of Embree tells.
+    Nearest,
+    /// The whole surface at the hit, in a scene.
+    Surface,
+}
+
 /// Writes the sets of rays about a mesh.
 pub(crate) fn write_rays(mesh: &Path, rays: &Path) -> Result<(), Box<dyn Error>> {
     let subject = Subject::read_tri(mesh)?;
     let (min, max) = subject.bounds();
-    for set in Rays::about(&subject.snapshot().geometry, min, max) {
+    for set in Rays::about(&snapshot(subject.mesh()).geometry, min, max) {
         set.write(rays)?;
     }
     Ok(())
 }
 
 /// Answers commands until there are no more.
-pub(crate) fn answer(mesh: &Path, rays: &Path) -> Result<(), Box<dyn Error>> {
+pub(crate) fn answer(mesh: &Path, rays: &Path, goal: Goal) -> Result<(), Box<dyn Error>> {
     let subject = Subject::read_tri(mesh)?;
-    let snapshot = subject.snapshot();
+    let mesh = subject.mesh();
+    let snapshot = snapshot(mesh.clone());
+    let geometry = &snapshot.geometry;
+    let (_, packed) = mesh.pack(&DAffine3::IDENTITY).map_err(|Degenerate(why)| why)?;
+    let triangles = mesh.model.data.as_deref().ok_or("a mesh without triangles")?;
+    let search = match goal {
+        Goal::Search => Search::Mesh { packed: &packed },
+        Goal::Nearest => Search::Nearest { geometry, mesh: triangles },
+        Goal::Surface => Search::Surface { geometry },
+    };
     let mut sets = vec![];
     for kind in Kind::ALL {
         sets.push(Rays::read(rays, kind)?);
@@ -39,7 +65,7 @@ pub(crate) fn answer(mesh: &Path, rays: &Path) -> Result<(), Box<dyn Error>> {
             ["build", threads] => answer_build(&subject, threads.parse()?)?,
             ["trace", kind, threads] => {
                 let set = sets.iter().find(|set| set.kind.name() == kind).ok_or("no such kind of rays")?;
-                answer_trace(set, &snapshot.geometry, threads.parse()?)?;
+                answer_trace(set, &search, threads.parse()?)?;
             }
             _ => return Err(format!("not understood: {line}").into()),
         }
@@ -89,8 +115,8 @@ fn answer_build(subject: &Subject, threads: usize) -> Result<(), Box<dyn Error>>
     Ok(())
 }
 
-fn answer_trace(set: &Rays, geometry: &Geometry, threads: usize) -> io::Result<()> {
-    let (met, Spent { wall, cpu }) = spent(|| set.trace(geometry, threads));
+fn answer_trace(set: &Rays, search: &Search<'_>, threads: usize) -> io::Result<()> {
+    let (met, Spent { wall, cpu }) = spent(|| set.trace(search, threads));
     let (items, hits, t) = (set.rays.len(), met.hits, met.t);
     tell(format_args!(r#"{{"items": {items}, "hits": {hits}, "t": {t:e}, "wall": {wall:.6}, "cpu": {cpu:.6}}}"#))
 }

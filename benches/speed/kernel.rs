@@ -3,8 +3,8 @@
 use crate::{
     clock::spent,
     measure::{Case, Done, Row, interleave},
-    rays::Rays,
-    subject::{Subject, build as build_tree},
+    rays::{Rays, Search},
+    subject::{Subject, build as build_tree, snapshot},
 };
 use rayon::{ThreadPoolBuildError, ThreadPoolBuilder};
 use snell::components::primitive::Cost;
@@ -34,7 +34,7 @@ pub(crate) fn trace(subjects: &[Subject], rounds: usize) -> Vec<Row> {
     for (subject, (snapshot, sets)) in subjects.iter().zip(&prepared) {
         for (set, threads) in sets.iter().flat_map(|set| [(set, 1), (set, 2)]) {
             let run = Box::new(move || {
-                let (met, spent) = spent(|| set.trace(&snapshot.geometry, threads));
+                let (met, spent) = spent(|| set.trace(&Search::Surface { geometry: &snapshot.geometry }, threads));
                 Done { spent, items: set.rays.len() as u64, cost: met.cost }
             });
             let subject = format!("{}: {}", subject.name, set.kind.name());
@@ -45,7 +45,7 @@ pub(crate) fn trace(subjects: &[Subject], rounds: usize) -> Vec<Row> {
 }
 
 fn prepare(subject: &Subject) -> (std::sync::Arc<snell::Snapshot>, [Rays; 4]) {
-    let snapshot = subject.snapshot();
+    let snapshot = snapshot(subject.mesh());
     let (min, max) = subject.bounds();
     let rays = Rays::about(&snapshot.geometry, min, max);
     (snapshot, rays)

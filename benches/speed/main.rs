@@ -64,6 +64,8 @@ enum Command {
         mesh: PathBuf,
         /// The beginning of the names of the files of rays.
         rays: PathBuf,
+        /// How much is to be found out for each ray.
+        goal: contestant::Goal,
     },
     /// Load and draw one scene, for `benches/peers`.
     Frame {
@@ -80,7 +82,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match &arguments.command {
         Some(Command::Rays { mesh, rays }) => contestant::write_rays(mesh, rays),
-        Some(Command::Contestant { mesh, rays }) => contestant::answer(mesh, rays),
+        Some(Command::Contestant { mesh, rays, goal }) => contestant::answer(mesh, rays, *goal),
         Some(Command::Frame { scene, threads, picture }) => contestant::draw(scene, *threads, picture),
         None => measure(&arguments),
     };

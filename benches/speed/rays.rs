@@ -7,12 +7,13 @@
 
 use snell::{
     Methods,
-    components::{math, primitive::Cost, random::SplitMix64, space::Ray},
-    prelude::DVec3,
+    components::{math, primitive::Cost, random::SplitMix64, shape::PackedMesh, space::Ray},
+    prelude::{DVec3, Mesh, Primitive, TriangleMesh},
     systems::accelerate::Geometry,
 };
 use std::{
     fs,
+    hint::black_box,
     io::{self, Error, ErrorKind},
     path::{Path, PathBuf},
     sync::atomic::{AtomicUsize, Ordering},
@@ -67,6 +68,17 @@ impl FileRay {
     }
 }
 
+/// How far a search goes.
+#[derive(Clone, Copy)]
+pub(crate) enum Search<'a> {
+    /// In the tree of one mesh, to distance and triangle.
+    Mesh { packed: &'a PackedMesh },
+    /// In all geometry, to distance, object, triangle and the triangle's normal, which is not of unit length.
+    Nearest { geometry: &'a Geometry, mesh: &'a TriangleMesh },
+    /// In all geometry, to the whole surface at the hit.
+    Surface { geometry: &'a Geometry },
+}
+
 /// What a set of rays met.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Met {
@@ -115,13 +127,43 @@ impl Rays {
     }
 
     /// Traces all rays on some threads.
-    pub(crate) fn trace(&self, geometry: &Geometry, threads: usize) -> Met {
+    pub(crate) fn trace(&self, with: &Search<'_>, threads: usize) -> Met {
+        let methods = &Methods::default();
+        let shadow = self.kind == Kind::Shadow;
+        // One loop for each, so that none is asked for a ray.
+        match *with {
+            Search::Mesh { packed, .. } if shadow => {
+                self.each(threads, |ray, t_max, cost| Mesh::blocks(packed, ray, t_max, cost).then_some(0.0))
+            }
+            Search::Nearest { geometry, .. } | Search::Surface { geometry } if shadow => {
+                self.each(threads, |ray, t_max, cost| geometry.blocked(ray, t_max, methods, cost).then_some(0.0))
+            }
+            Search::Mesh { packed } => {
+                self.each(threads, |ray, t_max, cost| Some(black_box(Mesh::hit(packed, ray, t_max, cost)?).t))
+            }
+            Search::Nearest { geometry, mesh } => self.each(threads, |ray, t_max, cost| {
+                let nearest = geometry.nearest(ray, t_max, methods, cost)?;
+                let [a, b, c] = mesh.corners(nearest.hit.part as usize);
+                black_box((b - a).cross(c - a));
+                Some(black_box(nearest).hit.t)
+            }),
+            Search::Surface { geometry } => {
+                self.each(threads, |ray, t_max, cost| Some(black_box(geometry.closest(ray, t_max, methods, cost)?).t))
+            }
+        }
+    }
+
+    /// Traces all rays on some threads; `trace` tells how far away a ray ends, if it meets anything before `t_max`.
+    fn each(&self, threads: usize, trace: impl Fn(&Ray, f64, &mut Cost) -> Option<f64> + Sync) -> Met {
         let next = AtomicUsize::new(0);
         let work = || {
             let mut met = Met::default();
             while let Some(rays) = self.rays.get(next.fetch_add(CHUNK, Ordering::Relaxed)..) {
                 for ray in &rays[..rays.len().min(CHUNK)] {
-                    self.trace_one(ray, geometry, &mut met);
+                    if let Some(t) = trace(&ray.ray(), f64::from(ray.t_max), &mut met.cost) {
+                        met.hits += 1;
+                        met.t += t;
+                    }
                 }
             }
             met
@@ -134,17 +176,6 @@ impl Rays {
                 Met { hits: sum.hits + met.hits, t: sum.t + met.t, cost }
             })
         })
-    }
-
-    #[inline]
-    fn trace_one(&self, ray: &FileRay, geometry: &Geometry, met: &mut Met) {
-        let t_max = f64::from(ray.t_max);
-        if self.kind == Kind::Shadow {
-            met.hits += u64::from(geometry.blocked(&ray.ray(), t_max, &Methods::default(), &mut met.cost));
-        } else if let Some(hit) = geometry.closest(&ray.ray(), t_max, &Methods::default(), &mut met.cost) {
-            met.hits += 1;
-            met.t += hit.t;
-        }
     }
 
     /// Writes the set beside others whose files begin with `prefix`.

@@ -44,19 +44,19 @@ impl Subject {
         Mesh::new(TriangleMesh::new(self.positions.clone(), self.triangles.clone()).expect("a sound mesh"))
     }
 
-    /// A snapshot of the mesh alone.
-    pub(crate) fn snapshot(&self) -> Arc<Snapshot> {
-        let mut renderer = Renderer::new();
-        renderer.world.spawn((Name::new("camera"), snell::prelude::Camera::default()));
-        renderer.world.spawn((Name::new("mesh"), self.mesh()));
-        renderer.snapshot().expect("a scene that can be drawn")
-    }
-
     /// The corners of the box around all vertices.
     pub(crate) fn bounds(&self) -> (DVec3, DVec3) {
         let points = self.positions.iter().map(|p| DVec3::from_array(p.map(f64::from)));
         points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| (min.min(p), max.max(p)))
     }
+}
+
+/// A snapshot of a mesh alone.
+pub(crate) fn snapshot(mesh: Mesh) -> Arc<Snapshot> {
+    let mut renderer = Renderer::new();
+    renderer.world.spawn((Name::new("camera"), snell::prelude::Camera::default()));
+    renderer.world.spawn((Name::new("mesh"), mesh));
+    renderer.snapshot().expect("a scene that can be drawn")
 }
 
 /// Builds the tree of a mesh that has none yet.
