@@ -144,11 +144,11 @@ impl Rays {
             Search::Nearest { geometry, mesh } => self.each(threads, |ray, t_max, cost| {
                 let nearest = geometry.nearest(ray, t_max, methods, cost)?;
                 let [a, b, c] = mesh.corners(nearest.hit.part as usize);
-                black_box((b - a).cross(c - a));
-                Some(black_box(nearest).hit.t)
+                black_box(&(b - a).cross(c - a));
+                Some(black_box(&nearest).hit.t)
             }),
             Search::Surface { geometry } => {
-                self.each(threads, |ray, t_max, cost| Some(black_box(geometry.closest(ray, t_max, methods, cost)?).t))
+                self.each(threads, |ray, t_max, cost| Some(black_box(&geometry.closest(ray, t_max, methods, cost)?).t))
             }
         }
     }

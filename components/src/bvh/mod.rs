@@ -16,7 +16,7 @@ use crate::{math, space::Bounds};
 use glam::DVec3;
 
 pub(crate) use blocks::{BLOCK, Blocks};
-pub(crate) use reach::reaches;
+pub(crate) use reach::{reaches, surely_reaches};
 pub(crate) use traverse::{Leaf, Visitor};
 
 /// Children of a node.

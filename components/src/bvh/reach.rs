@@ -5,7 +5,10 @@
 //! the ray misses. So a hit counts only if a walk comes to the triangle's own box in time for it: boxes only grow toward
 //! the root, and a walk that comes to the smallest comes to all.
 
-use super::{Box32, Node, traverse::BoxRay};
+use super::{
+    Box32, Node,
+    traverse::{BoxRay, larger},
+};
 use crate::{
     lanes::{self, Job, Lanes},
     space::{Bounds, Ray},
@@ -26,6 +29,23 @@ pub(crate) fn reaches(ray: &Ray, vertices: &[DVec3; 3], t: f64) -> bool {
     let point = ray.origin + way;
     let within = (bounds.min - slack).cmple(point) & point.cmple(bounds.max + slack);
     within.all() || enters(ray, &Box32::around(&bounds), t)
+}
+
+/// Whether [`reaches`] says yes at its first look, by the same arithmetic on lanes; where not, it is to be asked.
+///
+/// The box around the triangle is told as its least and greatest coordinates; the last of each four is 0.
+#[inline(always)]
+pub(crate) fn surely_reaches<L: Lanes>(lanes: L, ray: &Ray, [min, max]: [[f32; 4]; 2], t: f64) -> bool {
+    let l = lanes;
+    let four = |v: DVec3| [v.x, v.y, v.z, 0.0];
+    let reach = ray.origin.abs();
+    let reach = larger(larger(reach.x, reach.y), reach.z);
+    let way = l.d_mul(l.d_load(&four(ray.direction)), l.d_splat(t));
+    let slack = l.d_mul(l.d_add(l.d_abs(way), l.d_splat(reach)), l.d_splat(ULPS * f64::EPSILON));
+    let point = l.d_add(l.d_load(&four(ray.origin)), way);
+    let from = l.d_le(l.d_sub(l.d_widen(&min), slack), point);
+    let to = l.d_le(point, l.d_add(l.d_widen(&max), slack));
+    from & to == 0b1111
 }
 
 /// Whether a walk would enter a node's child of that box before `t`, by the very arithmetic of the walk.

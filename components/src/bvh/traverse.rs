@@ -100,7 +100,7 @@ fn padded(v: DVec3) -> [f64; 4] {
 }
 
 #[inline(always)]
-fn larger(a: f64, b: f64) -> f64 {
+pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 

@@ -154,8 +154,13 @@ impl TriangleMesh {
     /// # Panics
     /// If there is no such triangle.
     #[must_use]
+    #[inline]
     pub fn corners(&self, triangle: usize) -> [DVec3; 3] {
-        self.points(self.triangles[triangle])
+        match self.tree.get() {
+            // Where a search has just read them, if one has.
+            Some(tree) => tree.vertices(triangle as u32),
+            None => self.points(self.triangles[triangle]),
+        }
     }
 
     /// Bytes of the mesh and its tree, if that was built.
@@ -167,6 +172,7 @@ impl TriangleMesh {
         values + corners * 12 + self.slots.len() * 2 + tree
     }
 
+    #[inline]
     fn points(&self, corners: [u32; 3]) -> [DVec3; 3] {
         corners.map(|i| point(self.positions[i as usize]))
     }

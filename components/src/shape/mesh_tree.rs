@@ -5,7 +5,7 @@ use super::{
     shear::{Block, RayFrame},
 };
 use crate::{
-    bvh::{BLOCK, Blocks, Box32, Bvh, Leaf, Visitor, reaches},
+    bvh::{BLOCK, Blocks, Box32, Bvh, Leaf, Visitor, reaches, surely_reaches},
     lanes::{self, Job, Lanes},
     pages,
     primitive::{Cost, Hit},
@@ -95,26 +95,57 @@ impl Job for Nearest<'_> {
     fn run<L: Lanes>(self, lanes: L) -> Option<Hit> {
         let ray = self.ray.transformed(self.object_from_world);
         let tree = self.tree;
-        let mut search = Search { tree, frame: RayFrame::new(&ray), limit: self.t_max, best: None, only_reached: None };
+        let mut search = Search::new(tree, &ray, self.t_max);
         tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
         // If what was found last counts, what was found on the way does not matter: all that was passed over is farther.
-        let counts = |hit: &Hit| reaches(&ray, &tree.vertices(hit.part), hit.t);
-        if search.best.as_ref().is_none_or(counts) {
-            return search.best;
+        if search.is_reached(lanes, &ray) {
+            return search.found();
         }
-        search = Search { limit: self.t_max, best: None, only_reached: Some(&ray), ..search };
+        search = Search { only_reached: Some(&ray), ..Search::new(tree, &ray, self.t_max) };
         tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
-        search.best
+        search.found()
     }
 }
 
 struct Search<'a> {
     tree: &'a MeshTree,
     frame: RayFrame,
+    /// The distance of what was found, or the end of the ray.
     limit: f64,
-    best: Option<Hit>,
+    /// The triangle that was found, or [`NONE`].
+    triangle: u32,
+    /// Where it stands: see [`MeshTree::places`].
+    place: usize,
     /// The ray, where each hit is to be checked: see [`reaches`].
     only_reached: Option<&'a Ray>,
+}
+
+/// More than the number of any triangle.
+const NONE: u32 = u32::MAX;
+
+impl<'a> Search<'a> {
+    #[inline(always)]
+    fn new(tree: &'a MeshTree, ray: &Ray, t_max: f64) -> Self {
+        Self { tree, frame: RayFrame::new(ray), limit: t_max, triangle: NONE, place: 0, only_reached: None }
+    }
+
+    /// Whether what was found counts; see [`reaches`].
+    #[inline(always)]
+    fn is_reached<L: Lanes>(&self, lanes: L, ray: &Ray) -> bool {
+        self.triangle == NONE
+            || counts(lanes, ray, &self.tree.blocks[self.place / BLOCK], self.place % BLOCK, self.limit)
+    }
+
+    #[inline(always)]
+    fn found(&self) -> Option<Hit> {
+        (self.triangle != NONE).then_some(Hit { t: self.limit, part: self.triangle })
+    }
+}
+
+/// Whether a walk comes to a triangle of a block in time for a hit of it: see [`reaches`].
+#[inline(always)]
+fn counts<L: Lanes>(lanes: L, ray: &Ray, block: &Block, lane: usize, t: f64) -> bool {
+    surely_reaches(lanes, ray, block.bounds_of(lane), t) || reaches(ray, &block.vertices_of(lane), t)
 }
 
 impl Visitor for Search<'_> {
@@ -128,14 +159,13 @@ impl Visitor for Search<'_> {
             while hits != 0 {
                 let lane = hits.trailing_zeros() as usize % BLOCK;
                 hits &= hits - 1;
-                let hit = Hit { t: distances[lane], part: block.triangles[lane] };
-                if self.only_reached.is_some_and(|ray| !reaches(ray, &block.vertices_of(lane), hit.t)) {
+                let (t, triangle) = (distances[lane], block.triangles[lane]);
+                if self.only_reached.is_some_and(|ray| !counts(lanes, ray, block, lane, t)) {
                     continue;
                 }
                 // On equal distance the lowest index, whatever the order of the walk.
-                if self.best.is_none_or(|best| hit.t < best.t || hit.t == best.t && hit.part < best.part) {
-                    self.best = Some(hit);
-                    self.limit = hit.t;
+                if t < self.limit || t == self.limit && triangle < self.triangle {
+                    (self.limit, self.triangle, self.place) = (t, triangle, leaf.first * BLOCK + lane);
                 }
             }
         }
@@ -185,7 +215,7 @@ impl Visitor for AnySearch<'_> {
                 let lane = hits.trailing_zeros() as usize % BLOCK;
                 hits &= hits - 1;
                 let t = distances[lane];
-                if t < self.t_max && reaches(self.ray, &block.vertices_of(lane), t) {
+                if t < self.t_max && counts(lanes, self.ray, block, lane, t) {
                     self.found = true;
                     return None;
                 }

@@ -128,6 +128,15 @@ pub(crate) struct Block {
 }
 
 impl Block {
+    /// The least and the greatest coordinates of one of its triangles, each with a 0 to fill the lanes.
+    #[inline(always)]
+    pub(crate) fn bounds_of(&self, lane: usize) -> [[f32; 4]; 2] {
+        let [a, b, c] = &self.vertices;
+        let least = |axis: usize| min(min(a[axis][lane], b[axis][lane]), c[axis][lane]);
+        let greatest = |axis: usize| max(max(a[axis][lane], b[axis][lane]), c[axis][lane]);
+        [[least(0), least(1), least(2), 0.0], [greatest(0), greatest(1), greatest(2), 0.0]]
+    }
+
     /// The vertices of one of its triangles.
     #[inline]
     pub(crate) fn vertices_of(&self, lane: usize) -> [DVec3; 3] {
