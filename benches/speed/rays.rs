@@ -145,7 +145,8 @@ impl Rays {
                 let nearest = geometry.nearest(ray, t_max, methods, cost)?;
                 let [a, b, c] = mesh.corners(nearest.hit.part as usize);
                 black_box(&(b - a).cross(c - a));
-                Some(black_box(&nearest).hit.t)
+                black_box((nearest.hit.part, nearest.object));
+                Some(nearest.hit.t)
             }),
             Search::Surface { geometry } => {
                 self.each(threads, |ray, t_max, cost| Some(black_box(&geometry.closest(ray, t_max, methods, cost)?).t))

@@ -7,7 +7,7 @@
 
 use super::{
     Box32, Node,
-    traverse::{BoxRay, larger},
+    traverse::{BoxRay, is_beyond_boxes, larger},
 };
 use crate::{
     lanes::{self, Job, Lanes},
@@ -63,6 +63,9 @@ fn enters(ray: &Ray, bounds: &Box32, t: f64) -> bool {
         }
     }
 
+    if is_beyond_boxes(ray.origin) {
+        return true;
+    }
     let mut node = Node::EMPTY;
     for axis in 0..3 {
         (node.planes[axis][0], node.planes[axis + 3][0]) = (bounds.min[axis], bounds.max[axis]);

@@ -38,39 +38,41 @@ pub(super) struct BoxRay<L: Lanes> {
 }
 
 impl<L: Lanes> BoxRay<L> {
+    /// The ray must not start [beyond boxes](is_beyond_boxes).
     #[inline(always)]
     pub(super) fn new(lanes: L, ray: &Ray) -> Self {
         let l = lanes;
         let origin = l.d_load(&padded(ray.origin));
         let direction = l.d_load(&padded(ray.direction));
-        let (most, least) = (l.d_splat(f64::from(f32::MAX)), l.d_splat(f64::from(f32::MIN)));
         let reach = ray.origin.abs();
         let reach = larger(larger(reach.x, reach.y), reach.z);
         let margin = l.d_splat(ORIGIN_ULPS * f64::EPSILON * reach + TINY32);
         let spread = l.d_add(l.d_mul(l.d_abs(origin), l.d_splat(ULP32)), margin);
-        let low = l.d_narrow(l.d_min(l.d_sub(origin, spread), most));
-        let high = l.d_narrow(l.d_max(l.d_add(origin, spread), least));
+        let ahead = l.d_with_sign(spread, direction);
+        let near = l.d_narrow(l.d_add(origin, ahead));
+        let far = l.d_narrow(l.d_sub(origin, ahead));
         let inverse = l.d_div(l.d_splat(1.0), direction);
+        let (most, least) = (l.d_splat(f64::from(f32::MAX)), l.d_splat(f64::from(f32::MIN)));
         let shrunk = l.d_mul(inverse, l.d_splat(1.0 - SLACK));
         let shrunk = l.d_narrow(l.d_max(l.d_min(shrunk, most), least));
         let tiny = l.d_with_sign(l.d_splat(TINY32), inverse);
         let grown = l.d_narrow(l.d_add(l.d_mul(inverse, l.d_splat(1.0 + SLACK)), tiny));
         // The sign bit, so that −0 and +0 lead to the same planes as the inverse they make.
-        let negative = l.d_signs(direction);
-        let [x, y, z] = [negative & 1 != 0, negative & 2 != 0, negative & 4 != 0];
+        let negative = l.d_signs(direction) as usize;
+        let [x, y, z] = [3 * (negative & 1), 3 * (negative >> 1 & 1), 3 * (negative >> 2 & 1)];
         Self {
             near: [
-                (l.f_splat(if x { low[0] } else { high[0] }), l.f_splat(shrunk[0])),
-                (l.f_splat(if y { low[1] } else { high[1] }), l.f_splat(shrunk[1])),
-                (l.f_splat(if z { low[2] } else { high[2] }), l.f_splat(shrunk[2])),
+                (l.f_splat(near[0]), l.f_splat(shrunk[0])),
+                (l.f_splat(near[1]), l.f_splat(shrunk[1])),
+                (l.f_splat(near[2]), l.f_splat(shrunk[2])),
             ],
             far: [
-                (l.f_splat(if x { high[0] } else { low[0] }), l.f_splat(grown[0])),
-                (l.f_splat(if y { high[1] } else { low[1] }), l.f_splat(grown[1])),
-                (l.f_splat(if z { high[2] } else { low[2] }), l.f_splat(grown[2])),
+                (l.f_splat(far[0]), l.f_splat(grown[0])),
+                (l.f_splat(far[1]), l.f_splat(grown[1])),
+                (l.f_splat(far[2]), l.f_splat(grown[2])),
             ],
-            near_planes: [if x { 3 } else { 0 }, if y { 4 } else { 1 }, if z { 5 } else { 2 }],
-            far_planes: [if x { 0 } else { 3 }, if y { 1 } else { 4 }, if z { 2 } else { 5 }],
+            near_planes: [x, 1 + y, 2 + z],
+            far_planes: [3 - x, 4 - y, 5 - z],
         }
     }
 
@@ -104,6 +106,17 @@ pub(super) fn larger(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }
 
+/// [`Ray::is_valid`] on lanes.
+#[inline(always)]
+fn is_valid<L: Lanes>(lanes: L, ray: &Ray) -> bool {
+    let l = lanes;
+    let zero = l.d_splat(0.0);
+    let (origin, direction) = (l.d_load(&padded(ray.origin)), l.d_load(&padded(ray.direction)));
+    // Zero times a number is zero unless that is infinite or not a number.
+    let sum = l.d_add(l.d_mul(origin, zero), l.d_mul(direction, zero));
+    l.d_le(sum, zero) == 0b1111 && l.d_lt(zero, l.d_abs(direction)) & 0b111 != 0
+}
+
 /// An `f32` not below a distance that is not negative.
 #[inline(always)]
 pub(super) fn above(t: f64) -> f32 {
@@ -112,7 +125,7 @@ pub(super) fn above(t: f64) -> f32 {
 
 /// Whether a ray starts where the differences to boxes leave the range of `f32`: what they say then is worth nothing.
 #[inline(always)]
-fn is_beyond_boxes(origin: DVec3) -> bool {
+pub(super) fn is_beyond_boxes(origin: DVec3) -> bool {
     let reach = origin.abs();
     larger(larger(reach.x, reach.y), reach.z) > 0.25 * f64::from(f32::MAX)
 }
@@ -164,7 +177,7 @@ fn visit_all<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], cost: &mut Cost, vi
 #[inline(always)]
 fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, cost: &mut Cost, visitor: &mut V) {
     // A ray that goes nowhere, or comes from nowhere, meets nothing.
-    if nodes.is_empty() || !ray.is_valid() {
+    if nodes.is_empty() || !is_valid(lanes, ray) {
         return;
     }
     if is_beyond_boxes(ray.origin) {

@@ -69,11 +69,13 @@ impl MeshTree {
     }
 
     /// The nearest hit within `t_max`, the lowest triangle among equally near ones; the ray is in the world.
+    #[inline]
     pub(super) fn nearest(&self, to: &DAffine3, ray: &Ray, t_max: f64, cost: &mut Cost) -> Option<Hit> {
         lanes::run(Nearest { tree: self, object_from_world: to, ray, t_max, cost })
     }
 
     /// Whether anything is hit before `t_max`; the ray is in the world.
+    #[inline]
     pub(super) fn blocks(&self, to: &DAffine3, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
         lanes::run(Blocked { tree: self, object_from_world: to, ray, t_max, cost })
     }
