@@ -5,6 +5,9 @@ use super::Box32;
 /// Most bins along an axis.
 pub(super) const BINS: usize = 16;
 
+/// From this many items on two sets of bins are worth their merging.
+const MANY: usize = 512;
+
 /// Three coordinates and a lane to spare: a whole register.
 type Four = [f32; 4];
 
@@ -88,23 +91,41 @@ impl Bins {
     }
 
     pub(super) fn fill(&mut self, items: &[Item], scale: &Scale) {
-        for item in items {
-            let [x, y, z, _] = scale.bins_of(item.center());
-            for (axis, bin) in [x, y, z].into_iter().enumerate() {
-                self.boxes[axis][bin] = self.boxes[axis][bin].union(&item.0);
-                self.counts[axis][bin] += 1;
-            }
+        if items.len() < MANY {
+            return items.iter().for_each(|item| self.add(item, scale));
+        }
+        // Neighbours often fall into one bin, and each would wait for the one before: two sets by turns.
+        let mut other = Self::new();
+        let (pairs, rest) = items.as_chunks();
+        for [a, b] in pairs {
+            self.add(a, scale);
+            other.add(b, scale);
+        }
+        rest.iter().for_each(|item| self.add(item, scale));
+        self.merge(&other);
+    }
+
+    #[inline(always)]
+    fn add(&mut self, item: &Item, scale: &Scale) {
+        let [x, y, z, _] = scale.bins_of(item.center());
+        for (axis, bin) in [x, y, z].into_iter().enumerate() {
+            self.boxes[axis][bin] = self.boxes[axis][bin].union(&item.0);
+            self.counts[axis][bin] += 1;
         }
     }
 
     pub(super) fn merged(mut self, other: &Self) -> Self {
+        self.merge(other);
+        self
+    }
+
+    fn merge(&mut self, other: &Self) {
         for axis in 0..3 {
             for bin in 0..BINS {
                 self.boxes[axis][bin] = self.boxes[axis][bin].union(&other.boxes[axis][bin]);
                 self.counts[axis][bin] += other.counts[axis][bin];
             }
         }
-        self
     }
 
     /// All bins of a range as one.
@@ -213,6 +234,17 @@ mod tests {
         // In blocks of three: after three 7 · 1 + 145 · 2 = 297, after five 63 · 2 + 5 = 131; in blocks of five 63 + 5.
         let five = cheapest(&bins, 8, 5).expect("a plane").1;
         assert_eq!(bins.sum(1, 0..five + 1).0, 5);
+    }
+
+    #[test]
+    fn many_items_fill_bins_as_one_by_one() {
+        let places: Vec<f32> = (0..MANY + 3).map(|i| (i * 37 % 101) as f32).collect();
+        let items = row(&places);
+        let many = filled(&items, BINS);
+        let each = items.chunks(1).map(|item| filled(item, BINS)).reduce(|a, b| a.merged(&b)).expect("items");
+        assert_eq!(many.counts, each.counts);
+        let edges = |bins: &Bins| bins.boxes.map(|of| of.map(|b| [&b.min[..3], &b.max[..3]].concat()));
+        assert_eq!(edges(&many), edges(&each));
     }
 
     #[test]

@@ -49,8 +49,10 @@ impl Box32 {
 
     /// The smallest box around three `f32` points.
     #[must_use]
-    pub fn of_triangle(vertices: &[[f32; 3]; 3]) -> Self {
-        vertices.iter().fold(Self::EMPTY, |b, v| b.union(&Self { min: *v, max: *v }))
+    #[inline]
+    pub fn of_triangle([a, b, c]: &[[f32; 3]; 3]) -> Self {
+        let of = |v: &[f32; 3]| Self { min: *v, max: *v };
+        of(a).union(&of(b)).union(&of(c))
     }
 
     #[inline]

@@ -185,7 +185,10 @@ impl TriangleMesh {
 
     fn tree(&self) -> &Arc<MeshTree> {
         self.tree.get_or_init(|| {
-            let corners = |i: u32| self.triangles[i as usize].map(|v| self.positions[v as usize]);
+            let corners = |i: u32| {
+                let [a, b, c] = self.triangles[i as usize];
+                [self.positions[a as usize], self.positions[b as usize], self.positions[c as usize]]
+            };
             Arc::new(MeshTree::build(self.len(), corners))
         })
     }

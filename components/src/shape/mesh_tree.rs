@@ -33,8 +33,16 @@ impl MeshTree {
         let tree = Bvh::build_with(len, |i| Box32::of_triangle(&corners(i as u32)), BLOCK);
         let (tree, order) = Blocks::new(tree);
         let block = |triangles: &[u32; BLOCK]| {
-            let corners = triangles.map(&corners);
-            let vertices = [0, 1, 2].map(|vertex| [0, 1, 2].map(|axis| corners.map(|corners| corners[vertex][axis])));
+            // Plain loops: maps over arrays are calls.
+            let mut vertices = [[[0.0; BLOCK]; 3]; 3];
+            for (lane, &triangle) in triangles.iter().enumerate() {
+                let corners = corners(triangle);
+                for (vertex, corner) in vertices.iter_mut().zip(corners) {
+                    for axis in 0..3 {
+                        vertex[axis][lane] = corner[axis];
+                    }
+                }
+            }
             Block { vertices, triangles: *triangles }
         };
         let mut blocks = pages::with_room(order.len());
