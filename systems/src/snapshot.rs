@@ -4,7 +4,7 @@ use crate::{accelerate::Geometry, extract::Ceiling, render::Interior};
 use glam::DVec3;
 use snell_components::{
     color::Rgb,
-    light::{Lamp, Sampling},
+    light::{Lamp, PointLight, Sampling},
     name::Name,
     settings::Settings,
     space::Ray,
@@ -52,6 +52,8 @@ pub struct Lights {
     pub ambient: Rgb,
     /// All others, in the order of names.
     pub lamps: Vec<Arc<dyn Lamp>>,
+    /// Each that is a point light, beside itself: most scenes have no other, and need no call to ask them.
+    pub points: Vec<Option<PointLight>>,
     /// How finely each is sampled; none for those without area.
     pub sampling: Vec<Option<Sampling>>,
     /// Names of the lamps' entities, and the tags of their components.
@@ -213,6 +215,17 @@ impl Material {
     #[must_use]
     pub fn goes_on(&self) -> bool {
         self.effects.last().is_some_and(|effect| !effect.is_light())
+    }
+
+    /// What the mirror ray brings, if no other ray goes on.
+    #[must_use]
+    #[inline]
+    pub fn mirror_alone(&self) -> Option<Rgb> {
+        match *self.effects {
+            [Effect::Mirror(share)] => Some(share),
+            [.., before, Effect::Mirror(share)] if before.is_light() => Some(share),
+            _ => None,
+        }
     }
 
     /// Whether light passes through.

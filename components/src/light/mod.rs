@@ -34,6 +34,11 @@ pub trait Lamp: Send + Sync + 'static {
     /// that part does not shine. Lamps without area ignore `sample`.
     fn illuminate(&self, point: DVec3, sample: DVec2) -> Option<Illumination>;
 
+    /// The light itself if it is a point light in the world: the render then asks that, without a call for every look.
+    fn as_point(&self) -> Option<&PointLight> {
+        None
+    }
+
     /// The most that [`Lamp::illuminate`] can give as intensity, at any point and for any sample; none if there is no
     /// limit, or none is known. Rays are cut by an error only where all lamps know theirs.
     fn brightest(&self) -> Option<Rgb> {

@@ -41,6 +41,7 @@ impl Light for PointLight {
 }
 
 impl Lamp for PointLight {
+    #[inline(always)]
     fn illuminate(&self, point: DVec3, _: DVec2) -> Option<Illumination> {
         let to_light = self.position - point;
         (to_light != DVec3::ZERO).then_some(Illumination {
@@ -49,6 +50,10 @@ impl Lamp for PointLight {
             intensity: self.intensity,
             shadows: self.shadows,
         })
+    }
+
+    fn as_point(&self) -> Option<&PointLight> {
+        Some(self)
     }
 
     fn brightest(&self) -> Option<Rgb> {

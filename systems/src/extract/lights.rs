@@ -69,6 +69,7 @@ pub fn gather_lights(
     parts.lights = Arc::new(Lights {
         labels: lamps.iter().flat_map(|(rank, lamps)| lamps.0.keys().map(|tag| label(rank, *tag))).collect(),
         ambient: ambient.iter().fold(Rgb::ZERO, |sum, (_, light)| sum + light.intensity),
+        points: shown.iter().map(|lamp| lamp.as_point().cloned()).collect(),
         sampling: shown.iter().map(|lamp| lamp.sampling()).collect(),
         lamps: shown,
     });

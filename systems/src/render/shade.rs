@@ -14,7 +14,7 @@ use crate::{
 use glam::{DVec2, DVec3};
 use snell_components::{
     color::Rgb,
-    light::{Illumination, Sampling},
+    light::{Illumination, Lamp, Sampling},
     math,
     method::Methods,
     primitive::{Cost, OFFSET_ULPS, Surface},
@@ -134,28 +134,46 @@ impl<'a> Point<'a> {
     ) -> Rgb {
         let start = self.surface.departure(self.surface.normal, self.travelled) + self.lift;
         let mut sum = Rgb::ZERO;
-        let Lights { lamps, sampling, .. } = &*self.snapshot.lights;
-        for ((lamp, sampling), n) in lamps.iter().zip(sampling).zip(0..) {
-            let mut one = |sample| {
-                let light = lamp.illuminate(start, sample);
-                let arriving = light.as_ref().and_then(|light| self.arriving(start, light, interior, counts));
-                let visible = arriving.as_ref().map(|arriving| arriving.visible);
-                observer.looked(&Look { lamp: n, from: start, light: light.as_ref(), visible });
-                arriving.filter(|arriving| arriving.visible != Rgb::ZERO).map(|arriving| term(&arriving))
-            };
-            let light = match *sampling {
-                None => one(DVec2::ZERO).unwrap_or(Rgb::ZERO),
-                Some(sampling) => {
+        let Lights { lamps, points, sampling, .. } = &*self.snapshot.lights;
+        for (((lamp, point), sampling), n) in lamps.iter().zip(points).zip(sampling).zip(0..) {
+            let light = match (point, *sampling) {
+                (Some(lamp), _) => self.look(n, lamp, start, DVec2::ZERO, interior, counts, observer, &term),
+                (None, None) => self.look(n, &**lamp, start, DVec2::ZERO, interior, counts, observer, &term),
+                (None, Some(sampling)) => {
                     let error = lamp_error(self.snapshot, weight).unwrap_or(sampling.error);
+                    let one = |sample| self.look(n, &**lamp, start, sample, interior, counts, observer, &term);
                     let (mean, reached) = mean_over(Sampling { error, ..sampling }, self.key.child(n), one);
                     counts.undersampled += u64::from(!reached);
-                    mean
+                    Some(mean)
                 }
             };
+            let light = light.unwrap_or(Rgb::ZERO);
             sum += light;
             observer.lamp(n, light);
         }
         sum
+    }
+
+    /// A term of one look at a lamp; none if nothing of it arrives.
+    #[inline(always)]
+    fn look<L: Lamp + ?Sized, O: Observer>(
+        &self,
+        number: u32,
+        lamp: &L,
+        start: DVec3,
+        sample: DVec2,
+        interior: &Interior,
+        counts: &mut Counts,
+        observer: &mut O,
+        term: &impl Fn(&Arriving) -> Rgb,
+    ) -> Option<Rgb> {
+        let light = lamp.illuminate(start, sample);
+        let arriving = light.as_ref().and_then(|light| self.arriving(start, light, interior, counts));
+        if O::WATCHES {
+            let visible = arriving.as_ref().map(|arriving| arriving.visible);
+            observer.looked(&Look { lamp: number, from: start, light: light.as_ref(), visible });
+        }
+        arriving.filter(|arriving| arriving.visible != Rgb::ZERO).map(|arriving| term(&arriving))
     }
 
     /// What arrives of a light at the point, if it shines on this side.

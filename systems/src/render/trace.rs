@@ -136,7 +136,17 @@ pub(super) fn light_along<B: Beside, O: Observer>(
         if !point.material.goes_on() {
             continue;
         }
-        let branches = point.branches(sides.flatten(), wavelength);
+        let (one, several);
+        let branches: &[Branch] = match point.material.mirror_alone() {
+            Some(share) => {
+                one = [Branch { way: Way::Mirrored, eta: 1.0, direction: point.mirrored(), share, wavelength }];
+                &one
+            }
+            None => {
+                several = point.branches(sides.flatten(), wavelength);
+                &several
+            }
+        };
         let mut beyond = None;
         for (n, branch) in branches.iter().enumerate().rev() {
             let weight = weight * branch.share;
@@ -204,7 +214,7 @@ pub(super) struct Branch {
     wavelength: Option<f64>,
 }
 
-type Branches = SmallVec<[Branch; 4]>;
+type Branches = SmallVec<[Branch; 2]>;
 
 impl Point<'_> {
     /// The rays that go on from here, in the order in which they are traced.
