@@ -262,8 +262,16 @@ impl Session {
                 self.put(loaded, label, &name, &thing, &folder);
                 Arrived::Thing(name)
             }
-            (Err(lines), purpose) => {
+            (Err(mut lines), purpose) => {
                 let title = match purpose {
+                    // Of its own folder nothing need be said with every fault.
+                    Purpose::Open { file: Some(file), folder, .. } => {
+                        let folder = format!("{}{}", folder.display(), std::path::MAIN_SEPARATOR);
+                        for line in &mut lines {
+                            *line = line.strip_prefix(&folder).unwrap_or(line).to_owned();
+                        }
+                        format!("{} was not opened", file.file_name().unwrap_or_default().to_string_lossy())
+                    }
                     Purpose::Open { .. } => format!("{} was not opened", loading.what),
                     Purpose::Bring { name, .. } => format!("The files of “{}” were not taken", name.as_str()),
                 };

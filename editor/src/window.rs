@@ -41,5 +41,23 @@ pub fn run(factory: Factory, file: Option<&Path>) -> Result<(), String> {
         Ok(Box::new(Window { editor, title: String::new() }) as Box<dyn eframe::App>)
     };
     eframe::run_native("snell-edit", options, Box::new(make))
-        .map_err(|why| format!("the window cannot be opened: {why}"))
+        .map_err(|why| format!("the window cannot be opened: {}; it needs a screen", reason(&why.to_string())))
+}
+
+/// What was told, without the place in the sources of a library that some errors begin with.
+fn reason(told: &str) -> &str {
+    let after_line = |at: usize| told.get(at + 4..)?.split_once(": ").map(|(_, reason)| reason);
+    told.rfind(".rs:").and_then(after_line).unwrap_or(told).trim_end_matches('.')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reasons_are_told_without_the_sources_of_libraries() {
+        let told = "os error at /home/me/winit/src/mod.rs:765: neither WAYLAND_DISPLAY nor DISPLAY is set.";
+        assert_eq!(reason(told), "neither WAYLAND_DISPLAY nor DISPLAY is set");
+        assert_eq!(reason("no OpenGL"), "no OpenGL");
+    }
 }

@@ -1,6 +1,7 @@
 //! A scene as a Rust program that builds it.
 
 use snell::{
+    Renderer,
     components::{
         color::Rgb,
         describe::{Describe, FieldVisitor, Spec, Value},
@@ -10,12 +11,12 @@ use snell::{
     },
     prelude::DVec3,
     systems::{
-        registry::{AnyComponent, Registry},
+        registry::{AnyComponent, Kind, Registry},
         save::fields,
         scene::{Scene, Thing, is_of_model},
     },
 };
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// Components that are tuples.
 const TUPLES: &[&str] =
@@ -35,15 +36,35 @@ const WORDS: &[(&str, &str)] = &[
 pub(super) fn rust(scene: &Scene, registry: &Registry) -> String {
     let things: Vec<_> = scene.things.iter().filter(|(name, _)| !is_of_model(name)).collect();
     let body = built(scene, &things).unwrap_or_else(|| read(scene, registry));
+    let (uses, with) = outside(&things, registry);
     format!(
-        "use snell::{{components::name::Name, prelude::*, systems::image}};\n\n\
+        "{uses}use snell::{{components::name::Name, prelude::*, systems::image}};\n\n\
          /// The scene.\npub fn scene() -> Result<Renderer, Box<dyn std::error::Error>> {{\n    \
-         let mut renderer = Renderer::new();\n{body}    Ok(renderer)\n}}\n\n\
+         let mut renderer = Renderer::new(){with};\n{body}    Ok(renderer)\n}}\n\n\
          fn main() -> Result<(), Box<dyn std::error::Error>> {{\n    \
          let snapshot = scene()?.snapshot()?;\n    let frame = render(&snapshot, &Options::default());\n    \
          let metadata = image::Metadata::of(&frame, &snapshot.settings, \"scene\".as_ref());\n    \
          image::write(\"scene.png\".as_ref(), image::Format::Png8, &frame.picture, &metadata)?;\n    Ok(())\n}}\n"
     )
+}
+
+/// What a program must say of shapes, lights and textures that are not Snell's: where they come from, and that it has them.
+fn outside(things: &[&(Name, std::sync::Arc<Thing>)], registry: &Registry) -> (String, String) {
+    let renderer = Renderer::new();
+    let known = renderer.world.resource::<Registry>();
+    let tags: BTreeSet<&str> = things.iter().flat_map(|(_, thing)| thing.components.keys().copied()).collect();
+    let (mut uses, mut with) = (String::new(), String::new());
+    for tag in tags.into_iter().filter(|tag| known.get(tag).is_none()) {
+        let verb = match registry.get(tag).map(|entry| entry.kind) {
+            Some(Kind::Shape) => "with_primitive",
+            Some(Kind::Light) => "with_light",
+            Some(Kind::Texture) => "with_texture",
+            _ => continue,
+        };
+        uses += &format!("// `{tag}` is not Snell's: bring it in here with `use`.\n");
+        with += &format!(".{verb}::<{tag}>()");
+    }
+    (uses, with)
 }
 
 /// The scene read from its text.

@@ -186,6 +186,24 @@ impl Window {
         frame.picture.hash()
     }
 
+    /// The program that the menu copies.
+    pub(crate) fn copied_code(&mut self) -> String {
+        self.click("File");
+        self.node("Copy as Rust code").click();
+        for _ in 0..4 {
+            self.harness.step();
+            let commands = &self.harness.output().platform_output.commands;
+            let copied = commands.iter().find_map(|command| match command {
+                egui::OutputCommand::CopyText(text) => Some(text.clone()),
+                _ => None,
+            });
+            if let Some(text) = copied {
+                return text;
+            }
+        }
+        panic!("nothing was copied");
+    }
+
     pub(crate) fn text(&self) -> String {
         self.editor().session().document.text().expect("a text")
     }

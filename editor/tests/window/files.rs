@@ -265,3 +265,45 @@ fn a_picture_wider_than_the_card_can_hold_is_shown() {
     let is_sky = |x: u32| shot.get_pixel(x, middle.y as u32).0.iter().all(|channel| *channel < 30);
     assert!(!is_sky(middle.x as u32), "the ball is in the middle");
 }
+
+#[test]
+fn a_start_with_a_scene_that_has_faults_tells_them_and_offers_something_to_begin_with() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let bad = folder.path().join("bad.ron");
+    fs::write(&bad, SCENE.replace("Sphere(1)", "Shpere(1)")).expect("written");
+    let mut window = Window::open(folder.path(), Some(&bad));
+    assert!(window.has("bad.ron was not opened"));
+    let told = window.harness.query_by_label_contains("bad.ron:7:").and_then(|node| node.value());
+    assert!(told.is_some_and(|told| told.starts_with("bad.ron:7:")), "without its folder");
+    window.click("Close");
+    window.click("Ball");
+    window.wait();
+    assert!(window.text().contains("Sphere"));
+}
+
+#[test]
+fn a_model_is_chosen_and_set_up_as_it_is_brought_in() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = scene(folder.path());
+    let model = folder.path().join("tent.obj");
+    let text = "v -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\nv 0 1.5 0\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+    fs::write(&model, text).expect("written");
+    let mut window = Window::open(folder.path(), Some(&file));
+    window.menu(&["Add", "Model from a file…"]);
+    window.set("File name", model.to_str().expect("a path"));
+    assert_eq!(window.editor().selected().map(|name| name.as_str()), Some("tent"));
+    let mut pictures = vec![window.picture()];
+    window.choose("Shading", "Smooth");
+    pictures.push(window.picture());
+    window.add_step("Turn about y");
+    window.set("Turn about y", "30");
+    pictures.push(window.picture());
+    window.menu(&["Shiny"]);
+    pictures.push(window.picture());
+    pictures.sort();
+    pictures.dedup();
+    assert_eq!(pictures.len(), 4, "each changes the picture");
+    window.key(Modifiers::COMMAND, Key::S);
+    window.wait();
+    assert_eq!(window.picture(), rendered(&file));
+}

@@ -211,19 +211,7 @@ fn the_scene_is_copied_as_a_program_that_makes_the_same_picture() {
     let mut window = Window::open(folder.path(), None);
     window.click("Shapes");
     window.wait();
-    window.click("File");
-    window.node("Copy as Rust code").click();
-    let mut code = None;
-    for _ in 0..4 {
-        window.harness.step();
-        let commands = &window.harness.output().platform_output.commands;
-        let copied = commands.iter().find_map(|command| match command {
-            egui::OutputCommand::CopyText(text) => Some(text.clone()),
-            _ => None,
-        });
-        code = code.or(copied);
-    }
-    let code = code.expect("a text");
+    let code = window.copied_code();
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/window/program.rs");
     if std::env::var_os("SNELL_BLESS").is_some() && std::env::var_os("CI").is_none() {
         std::fs::write(file, &code).expect("written");

@@ -37,6 +37,11 @@ fn a_shape_from_outside_is_added_edited_picked_and_saved() {
     }
     assert_eq!(window.editor().selected().map(|name| name.as_str()), Some("Torus"));
 
+    let code = window.copied_code();
+    assert!(code.contains("Renderer::new().with_primitive::<Torus>();"), "{code}");
+    assert!(code.starts_with("// `Torus` is not Snell's: bring it in here with `use`."), "{code}");
+    assert!(code.contains("Torus { major: 1.2, minor: 0.4 }"), "{code}");
+
     let text = window.text();
     assert!(text.contains("Torus(major: 1.2, minor: 0.4)"), "{text}");
     let mut renderer = factory();
