@@ -8,9 +8,10 @@ use crate::{
 use clap::ValueEnum;
 use snell::{
     Options, Picture, Renderer,
-    components::{color, primitive::Degenerate},
+    components::primitive::Degenerate,
     prelude::{DAffine3, Primitive},
     render,
+    systems::image::srgb8,
 };
 use std::{
     error::Error,
@@ -100,8 +101,7 @@ pub(crate) fn draw(scene: &Path, threads: usize, picture: &Path) -> Result<(), B
 /// A picture of 8 bits a channel, sRGB.
 fn ppm(picture: &Picture) -> Vec<u8> {
     let mut bytes = format!("P6\n{} {}\n255\n", picture.width, picture.height).into_bytes();
-    let code = |linear: &f32| (255.0 * color::srgb_from_linear(f64::from(*linear).clamp(0.0, 1.0)) + 0.5) as u8;
-    bytes.extend(picture.pixels.iter().flatten().map(code));
+    bytes.extend(srgb8(picture).as_flattened());
     bytes
 }
 
