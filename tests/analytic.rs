@@ -498,6 +498,8 @@ fn fresnel_splits_light_between_the_mirror_image_and_what_lies_behind() {
 fn a_body_too_dense_to_let_light_through_is_a_mirror() {
     let snapshot = scene(|world| {
         world.spawn((Plane {}, Dielectric { index: 10_001.0 }, Diffuse(Rgb::splat(0.25)), Ambient(Rgb::splat(0.15))));
+        // Black, below: what got through would be lost.
+        world.spawn((Plane {}, Transform::at(DVec3::NEG_Y)));
     });
     // Of the light, 1 − kd − ka = 0.6 is left for the mirror; no lamp shines.
     assert_near(seen(&snapshot, DVec3::Y, DVec3::new(0.6, -0.8, 0.0)), SKY * 0.6);
