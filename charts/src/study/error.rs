@@ -7,7 +7,7 @@ use super::{Found, Hindrance, Scene, scene};
 use crate::{
     chart::{Axis, Chart, Guide, Point, Series},
     measure::Effort,
-    table::{Table, short},
+    table::{Cell, Table, short},
 };
 use bevy_ecs::prelude::*;
 use rayon::prelude::*;
@@ -24,6 +24,12 @@ const ERRORS_OF_A_LOOK: [u32; 2] = [1, 4];
 
 /// The share of pixels that is to keep the error: two standard errors.
 const CONFIDENCE: f64 = 0.95;
+
+/// Column: the share of pixels that keep the error.
+const WITHIN: &str = "pixels within it, %";
+
+/// Column: rays over those of the smallest grid that is as good.
+const OF_GRID: &str = "rays of those, %";
 
 /// Rays across a pixel of the pictures that the promise is compared with in cost.
 const GRIDS: [u32; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
@@ -50,13 +56,13 @@ pub(super) fn study(scene: &mut Scene, effort: Effort) -> Result<Found, Hindranc
     }
     let mut table = Table::new(&[
         "error promised",
-        "pixels within it, %",
+        WITHIN,
         "error of 95 % of pixels, in 255ths",
         "pixels not resolved, %",
         "rays per pixel",
         "smallest grid without cuts as good",
         "its rays per pixel",
-        "rays of those, %",
+        OF_GRID,
         "bound proved for cuts, in 255ths",
         "largest error by cuts, in 255ths",
         "rays left by cuts, %",
@@ -203,5 +209,38 @@ impl Sampled {
     fn share_within(&self, error: f64, reference: &Self) -> f64 {
         let off = self.errors(reference);
         off.iter().filter(|off| **off <= error).count() as f64 / off.len() as f64
+    }
+}
+/// The tables of several scenes in one.
+pub(super) fn kept_in_all(studies: &[&Found]) -> Found {
+    let mut table = Table { columns: vec!["scene".into()], rows: vec![] };
+    table.columns.extend(studies.iter().take(1).flat_map(|study| study.table.columns.iter().cloned()));
+    let (mut not_kept, mut dearer) = (vec![], vec![]);
+    for study in studies {
+        let scene = study.about.as_deref().unwrap_or_default();
+        for row in &study.table.rows {
+            let is = |column: &str, wanted: fn(f64) -> bool| {
+                let at = study.table.columns.iter().position(|name| name == column);
+                at.is_some_and(|at| matches!(row[at], Cell::Number(number) if wanted(number)))
+            };
+            if is(WITHIN, |share| share < 100.0 * CONFIDENCE) && !not_kept.contains(&scene) {
+                not_kept.push(scene);
+            }
+            if is(OF_GRID, |share| share > 100.0) && !dearer.contains(&scene) {
+                dearer.push(scene);
+            }
+            table.rows.push(core::iter::once(scene.into()).chain(row.iter().cloned()).collect());
+        }
+    }
+    let but = |scenes: &[&str]| if scenes.is_empty() { String::new() } else { format!(" but {}", scenes.join(", ")) };
+    Found {
+        name: "errors".into(),
+        title: "All scenes: whether the error is kept".into(),
+        says: vec![
+            format!("95 % of the pixels are within the error promised in all scenes{}.", but(&not_kept)),
+            format!("It takes fewer rays than the smallest grid that is as good in all{}.", but(&dearer)),
+        ],
+        table,
+        ..Found::default()
     }
 }

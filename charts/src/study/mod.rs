@@ -19,7 +19,7 @@ use crate::{
     chart::{Axis, Chart, Point, Series},
     clock,
     measure::{Effort, Measured},
-    table::{Cell, Table},
+    table::Table,
 };
 use snell_systems::{extract::SceneError, render::Picture};
 
@@ -101,16 +101,8 @@ pub fn side_by_side(found: &[Found]) -> Vec<Found> {
     let of = |end: &str| found.iter().filter(|found| found.about.is_some() && found.name.ends_with(end)).collect();
     let (errors, settings): (Vec<&Found>, Vec<&Found>) = (of("-error"), of("-settings"));
     let mut all = vec![];
-    if let Some(first) = errors.first().filter(|_| errors.len() > 1) {
-        let mut table = Table { columns: vec!["scene".into()], rows: vec![] };
-        table.columns.extend(first.table.columns.iter().cloned());
-        for study in &errors {
-            let scene = study.about.as_deref().unwrap_or_default();
-            let row = |row: &Vec<Cell>| core::iter::once(scene.into()).chain(row.iter().cloned()).collect();
-            table.rows.extend(study.table.rows.iter().map(row));
-        }
-        let title = "All scenes: whether the error is kept";
-        all.push(Found { name: "errors".into(), title: title.into(), table, ..Found::default() });
+    if errors.len() > 1 {
+        all.push(error::kept_in_all(&errors));
     }
     if settings.len() > 1 {
         all.push(settings::defaults_of_all(&settings));

@@ -135,7 +135,7 @@ pub(super) fn study(effort: Effort) -> Result<Found, Hindrance> {
     let [ordered, _, crowded] = &series;
     let fit = fitted(ordered);
     let guides = fit.iter().map(|fit| {
-        let at = |n: u32| (f64::from(n), (fit.a + fit.b * math::log2(f64::from(n))).max(1e-3));
+        let at = |n: u32| (f64::from(n), (fit.a + fit.b * math::log2(f64::from(n))).max(0.0));
         let label = format!("{:.3} + {:.4}·log2 n (R² = {:.3}), fitted to the grid", fit.a, fit.b, fit.r_squared);
         Guide { label, ends: [at(counts[0]), at(most)] }
     });
@@ -158,11 +158,11 @@ pub(super) fn study(effort: Effort) -> Result<Found, Hindrance> {
             last(&work[0]),
         ),
     ];
-    let chart = |file: &str, title: &str, y: &str, series: &[Series], guides: Vec<Guide>| Chart {
+    let chart = |file: &str, title: &str, y: Axis, series: &[Series], guides: Vec<Guide>| Chart {
         file: file.into(),
         title: title.into(),
         x: Axis::log("triangles"),
-        y: Axis::log(y),
+        y,
         series: series.to_vec(),
         guides,
         smaller_is_better: false,
@@ -175,14 +175,15 @@ pub(super) fn study(effort: Effort) -> Result<Found, Hindrance> {
             chart(
                 "triangles-time",
                 "Time of a ray against triangles (lower is better)",
-                &format!("microseconds ({UNIT}) per ray"),
+                // Where what grows as log n is straight.
+                Axis::linear(format!("microseconds ({UNIT}) per ray")),
                 &series,
                 guides,
             ),
             chart(
                 "triangles-work",
                 "Work of a ray against triangles (lower is better)",
-                "nodes visited and triangles tested per ray",
+                Axis::log("nodes visited and triangles tested per ray"),
                 &work,
                 vec![],
             ),
