@@ -64,22 +64,21 @@ class Scene:
 
         `region` is x, y, width and height in pixels. Raises `SceneError` with every fault of the scene.
         """
-        renderer = self._native.renderer()
-        try:
-            renderer.load_text(self.to_text(), path)
-            return renderer.render(threads, region)
-        except self._native.SceneError as faults:
-            # Each module has an error of its own; all are known as this one.
-            raise snell_native.SceneError(str(faults)) from None
+        return _drawn(self._native, lambda renderer: renderer.load_text(self.to_text(), path), threads, region)
 
 
 def render(path, *, native=snell_native, threads=None, region=None):
     """Draws a scene file."""
+    return _drawn(native, lambda renderer: renderer.load(path), threads, region)
+
+
+def _drawn(native, read, threads, region):
     renderer = native.renderer()
     try:
-        renderer.load(path)
+        read(renderer)
         return renderer.render(threads, region)
     except native.SceneError as faults:
+        # Each module has an error of its own; all are known as this one.
         raise snell_native.SceneError(str(faults)) from None
 
 
