@@ -174,16 +174,43 @@ fn visit_all<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], cost: &mut Cost, vi
 }
 
 /// Visits the leaves along the ray, nearest first, until nothing is left within the limit.
+///
+/// The visitor is made after the ray was prepared for boxes, as those come first, and given back; none where there is
+/// nothing to visit.
 #[inline(always)]
-fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, cost: &mut Cost, visitor: &mut V) {
+fn walk<L: Lanes, V: Visitor>(
+    lanes: L,
+    nodes: &[Node],
+    ray: &Ray,
+    limit: f64,
+    cost: &mut Cost,
+    visitor: impl FnOnce() -> V,
+) -> Option<V> {
     // A ray that goes nowhere, or comes from nowhere, meets nothing.
     if nodes.is_empty() || !is_valid(lanes, ray) {
-        return;
+        return None;
     }
     if is_beyond_boxes(ray.origin) {
-        return visit_all(lanes, nodes, cost, visitor);
+        let mut visitor = visitor();
+        visit_all(lanes, nodes, cost, &mut visitor);
+        return Some(visitor);
     }
     let ray = BoxRay::new(lanes, ray);
+    let mut visitor = visitor();
+    along(lanes, nodes, &ray, limit, cost, &mut visitor);
+    Some(visitor)
+}
+
+/// [`walk`] of a prepared ray.
+#[inline(always)]
+fn along<L: Lanes, V: Visitor>(
+    lanes: L,
+    nodes: &[Node],
+    ray: &BoxRay<L>,
+    limit: f64,
+    cost: &mut Cost,
+    visitor: &mut V,
+) {
     let mut limit = above(limit);
     let mut room = Room::<ROOM>::new();
     let mut stack = Stack::new(&mut room);
@@ -266,8 +293,15 @@ fn walk<L: Lanes, V: Visitor>(lanes: L, nodes: &[Node], ray: &Ray, limit: f64, c
 impl Blocks {
     /// Visits the blocks along the ray, nearest first, until nothing is left within the limit.
     #[inline(always)]
-    pub(crate) fn walk<L: Lanes>(&self, lanes: L, ray: &Ray, limit: f64, cost: &mut Cost, visitor: &mut impl Visitor) {
-        walk(lanes, &self.nodes, ray, limit, cost, visitor);
+    pub(crate) fn walk<L: Lanes, V: Visitor>(
+        &self,
+        lanes: L,
+        ray: &Ray,
+        limit: f64,
+        cost: &mut Cost,
+        visitor: impl FnOnce() -> V,
+    ) -> Option<V> {
+        walk(lanes, &self.nodes, ray, limit, cost, visitor)
     }
 }
 
@@ -285,7 +319,7 @@ impl<F: FnMut(Range<usize>, &mut Cost) -> Option<f64>, const ANY: bool> Job for 
 
     #[inline(always)]
     fn run<L: Lanes>(mut self, lanes: L) {
-        walk(lanes, &self.tree.nodes, self.ray, self.limit, self.cost, &mut Runs::<_, ANY>(&mut self.leaf));
+        walk(lanes, &self.tree.nodes, self.ray, self.limit, self.cost, || Runs::<_, ANY>(&mut self.leaf));
     }
 }
 

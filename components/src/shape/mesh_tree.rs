@@ -105,15 +105,13 @@ impl Job for Nearest<'_> {
     fn run<L: Lanes>(self, lanes: L) -> Option<Hit> {
         let ray = self.ray.transformed(self.object_from_world);
         let tree = self.tree;
-        let mut search = Search::new(tree, &ray, self.t_max);
-        tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
+        let search = tree.tree.walk(lanes, &ray, self.t_max, self.cost, || Search::new(tree, &ray, self.t_max))?;
         // If what was found last counts, what was found on the way does not matter: all that was passed over is farther.
         if search.is_reached(lanes, &ray) {
             return search.found();
         }
-        search = Search { only_reached: Some(&ray), ..Search::new(tree, &ray, self.t_max) };
-        tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
-        search.found()
+        let again = || Search { only_reached: Some(&ray), ..Search::new(tree, &ray, self.t_max) };
+        tree.tree.walk(lanes, &ray, self.t_max, self.cost, again)?.found()
     }
 }
 
@@ -199,9 +197,8 @@ impl Job for Blocked<'_> {
     fn run<L: Lanes>(self, lanes: L) -> bool {
         let ray = self.ray.transformed(self.object_from_world);
         let tree = self.tree;
-        let mut search = AnySearch { tree, ray: &ray, frame: RayFrame::new(&ray), t_max: self.t_max, found: false };
-        tree.tree.walk(lanes, &ray, self.t_max, self.cost, &mut search);
-        search.found
+        let search = || AnySearch { tree, ray: &ray, frame: RayFrame::new(&ray), t_max: self.t_max, found: false };
+        tree.tree.walk(lanes, &ray, self.t_max, self.cost, search).is_some_and(|search| search.found)
     }
 }
 
