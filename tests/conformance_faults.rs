@@ -1,6 +1,7 @@
 //! The suite for shapes, lights and patterns catches faults: each of these is a ball, a light or a pattern with one.
 
 use snell::{
+    components::packet::{Hits, Mask, Packet, PerRay, blocked_each, hit_each},
     conformance::{Form, check, check_light, check_texture},
     prelude::*,
 };
@@ -50,6 +51,8 @@ faults! {
     PANICS_WHEN_LARGE = 19, a_panic_at_extreme_values: "extremes";
     FIELD_FORGOTTEN = 20, a_field_that_is_not_read: "text";
     OTHER_WITHOUT_UV = 21, another_surface_without_texture: "surface";
+    PACKET_BY_ONE_BIT = 22, one_bit_between_packet_and_ray: "packet";
+    PACKET_BLOCKS_AT_END = 23, shadows_of_packets_at_their_end: "packet";
 }
 
 /// A ball about the origin with a fault.
@@ -126,6 +129,28 @@ impl<const FAULT: u8> Primitive for Broken<FAULT> {
     fn blocks(packed: &Packed, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
         let limit = |t: f64| if FAULT == BLOCKS_TOO_LATE { t * 0.999 } else { t };
         Self::hit(packed, ray, limit(t_max), cost).is_some_and(|hit| hit.t < limit(t_max))
+    }
+
+    fn hit_packet(
+        packed: &Packed,
+        packet: &Packet,
+        rays: Mask,
+        t_max: &PerRay,
+        hits: &mut Hits,
+        cost: &mut Cost,
+    ) -> Mask {
+        let met = hit_each(rays, hits, |i| Self::hit(packed, &packet.ray(i), t_max[i], cost));
+        if FAULT == PACKET_BY_ONE_BIT {
+            hits.t[5] = hits.t[5].next_down();
+        }
+        met
+    }
+
+    fn blocks_packet(packed: &Packed, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
+        match FAULT {
+            PACKET_BLOCKS_AT_END => blocked_each(rays, |i| Self::hit(packed, &packet.ray(i), t_max[i], cost).is_some()),
+            _ => blocked_each(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost)),
+        }
     }
 
     fn surface(packed: &Packed, ray: &Ray, hit: Hit) -> Surface {

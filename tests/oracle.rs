@@ -7,9 +7,14 @@ mod support {
 }
 
 use num_bigint::{BigInt, Sign};
-use snell::components::{math, primitive::Cost, shape::RayFrame};
+use snell::components::{
+    math,
+    packet::{PACKET, Packet},
+    primitive::Cost,
+    shape::RayFrame,
+};
 use snell::prelude::*;
-use snell::systems::accelerate::Intersection;
+use snell::systems::accelerate::{Bests, Intersection};
 use std::sync::Arc;
 use support::{
     gallery::{bumpy, gallery},
@@ -179,6 +184,55 @@ fn the_nearest_hit_is_that_of_brute_force_bit_for_bit() {
         }
     }
     assert!(hits > rays / 3, "{hits} of {rays} rays hit: too few to show anything");
+}
+
+#[test]
+fn rays_in_a_packet_meet_what_they_meet_alone_bit_for_bit() {
+    let (mut rays, mut hits, mut blocks) = (0, 0, 0);
+    let mut best = Bests::default();
+    for seed in 0..40 {
+        let (whole, points) = jumble(seed);
+        // All shapes, and so few that no tree is over them.
+        let few = whole.geometry.of_objects(|object| object % 29 == seed as u32 % 29);
+        let mut random = Random::new(seed + 5000);
+        for n in 0..30 {
+            let geometry = if n % 3 == 0 { &few } else { &*whole.geometry };
+            let (mut packet, mut t_max) = (Packet::default(), [0.0; PACKET]);
+            let mut last = None;
+            let common = ray(&mut random, &points, None);
+            for _ in 0..1 + random.below(PACKET) {
+                // Some that belong together, some that do not, and now and then one that no box knows, or that is none.
+                let ray = match random.below(40) {
+                    0 => Ray { origin: DVec3::splat(1e39), direction: DVec3::NEG_ONE },
+                    1 => Ray { origin: common.origin, direction: DVec3::NAN },
+                    _ if n % 2 == 0 => {
+                        Ray { direction: common.direction + vector(&mut random, 0.05), origin: common.origin }
+                    }
+                    _ => ray(&mut random, &points, last.as_ref()),
+                };
+                let met = geometry.closest(&ray, f64::INFINITY, &Methods::default(), &mut Cost::default());
+                let ends = [f64::INFINITY, 20.0 * random.unit(), met.map_or(1.0, |met| met.t)];
+                t_max[packet.push(&ray)] = ends[random.below(3)];
+                last = met.or(last);
+            }
+            let limit = if n % 5 == 0 { 15.0 * random.unit() } else { f64::INFINITY };
+            let (with, mut cost) = (Methods::default(), Cost::default());
+            best.begin(packet.len(), limit);
+            geometry.nearest_packet(&packet, &with, &mut best, &mut cost);
+            let asked = packet.all() & ((u64::MAX / 3) | n);
+            let blocked = geometry.blocked_packet(&packet, asked, &t_max, &with, &mut cost);
+            for (i, &t_max) in t_max[..packet.len()].iter().enumerate() {
+                let ray = packet.ray(i);
+                let alone = geometry.nearest(&ray, limit, &with, &mut cost);
+                assert_eq!(format!("{:?}", best.nearest(i)), format!("{alone:?}"), "seed {seed}, {n}: {ray:?}");
+                let alone = asked >> i & 1 == 1 && geometry.blocked(&ray, t_max, &with, &mut cost);
+                assert_eq!(blocked >> i & 1 == 1, alone, "seed {seed}, {n}, up to {t_max}: {ray:?}");
+                (rays, hits, blocks) =
+                    (rays + 1, hits + usize::from(best.nearest(i).is_some()), blocks + usize::from(alone));
+            }
+        }
+    }
+    assert!(hits > rays / 5 && blocks > rays / 20, "{hits} hit and {blocks} blocked of {rays}");
 }
 
 #[test]

@@ -105,7 +105,12 @@ def contestants(only, work):
     snell = build_snell()
     found = {
         name: lambda mesh, rays, g=goal: [snell, "contestant", mesh, rays, g]
-        for name, goal in [(OURS, "nearest"), ("snell-search", "search"), ("snell-surface", "surface")]
+        for name, goal in [
+            (OURS, "nearest"),
+            ("snell-packets", "packets"),
+            ("snell-search", "search"),
+            ("snell-surface", "surface"),
+        ]
     }
     wanted = lambda names: [name for name in names if not only or name in only]
     embree = wanted(["embree-single", "embree-bvh8", "embree-packet8", "embree-packet16", "embree-single-robust"])

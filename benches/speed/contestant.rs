@@ -27,6 +27,8 @@ pub(crate) enum Goal {
     Search,
     /// Distance, object, triangle and its normal, in a scene: what a call of Embree tells.
     Nearest,
+    /// The same, with rays in packets.
+    Packets,
     /// The whole surface at the hit, in a scene.
     Surface,
 }
@@ -52,6 +54,7 @@ pub(crate) fn answer(mesh: &Path, rays: &Path, goal: Goal) -> Result<(), Box<dyn
     let search = match goal {
         Goal::Search => Search::Mesh { packed: &packed },
         Goal::Nearest => Search::Nearest { geometry, mesh: triangles },
+        Goal::Packets => Search::Packets { geometry, mesh: triangles },
         Goal::Surface => Search::Surface { geometry },
     };
     let mut sets = vec![];

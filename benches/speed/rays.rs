@@ -7,9 +7,16 @@
 
 use snell::{
     Methods,
-    components::{math, primitive::Cost, random::SplitMix64, shape::PackedMesh, space::Ray},
+    components::{
+        math,
+        packet::{PACKET, Packet},
+        primitive::Cost,
+        random::SplitMix64,
+        shape::PackedMesh,
+        space::Ray,
+    },
     prelude::{DVec3, Mesh, Primitive, TriangleMesh},
-    systems::accelerate::Geometry,
+    systems::accelerate::{Bests, Geometry},
 };
 use std::{
     fs,
@@ -24,7 +31,7 @@ use std::{
 const EDGE: u32 = 1024;
 
 /// Rays a thread takes at a time.
-const CHUNK: usize = 4096;
+const CHUNK: usize = 64 * PACKET;
 
 /// What rays are for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,8 +82,17 @@ pub(crate) enum Search<'a> {
     Mesh { packed: &'a PackedMesh },
     /// In all geometry, to distance, object, triangle and the triangle's normal, which is not of unit length.
     Nearest { geometry: &'a Geometry, mesh: &'a TriangleMesh },
+    /// The same for packets of rays.
+    Packets { geometry: &'a Geometry, mesh: &'a TriangleMesh },
     /// In all geometry, to the whole surface at the hit.
     Surface { geometry: &'a Geometry },
+}
+
+/// What a packet needs.
+struct Room {
+    packet: Packet,
+    t_max: [f64; PACKET],
+    best: Bests,
 }
 
 /// What a set of rays met.
@@ -138,6 +154,10 @@ impl Rays {
             Search::Nearest { geometry, .. } | Search::Surface { geometry } if shadow => {
                 self.each(threads, |ray, t_max, cost| geometry.blocked(ray, t_max, methods, cost).then_some(0.0))
             }
+            Search::Packets { geometry, .. } if shadow => self.packets(threads, |room, cost| {
+                let Room { packet, t_max, .. } = room;
+                (geometry.blocked_packet(packet, packet.all(), t_max, methods, cost).count_ones(), 0.0)
+            }),
             Search::Mesh { packed } => {
                 self.each(threads, |ray, t_max, cost| Some(black_box(Mesh::hit(packed, ray, t_max, cost)?).t))
             }
@@ -148,6 +168,18 @@ impl Rays {
                 black_box((nearest.hit.part, nearest.object));
                 Some(nearest.hit.t)
             }),
+            Search::Packets { geometry, mesh } => self.packets(threads, |room, cost| {
+                room.best.begin(room.packet.len(), f64::INFINITY);
+                room.best.limit = room.t_max;
+                geometry.nearest_packet(&room.packet, methods, &mut room.best, cost);
+                let nearest = (0..room.packet.len()).filter_map(|i| room.best.nearest(i));
+                nearest.fold((0, 0.0), |(hits, sum), nearest| {
+                    let [a, b, c] = mesh.corners(nearest.hit.part as usize);
+                    black_box(&(b - a).cross(c - a));
+                    black_box((nearest.hit.part, nearest.object));
+                    (hits + 1, sum + nearest.hit.t)
+                })
+            }),
             Search::Surface { geometry } => {
                 self.each(threads, |ray, t_max, cost| Some(black_box(&geometry.closest(ray, t_max, methods, cost)?).t))
             }
@@ -156,16 +188,39 @@ impl Rays {
 
     /// Traces all rays on some threads; `trace` tells how far away a ray ends, if it meets anything before `t_max`.
     fn each(&self, threads: usize, trace: impl Fn(&Ray, f64, &mut Cost) -> Option<f64> + Sync) -> Met {
+        self.chunks(threads, |rays, met| {
+            for ray in rays {
+                if let Some(t) = trace(&ray.ray(), f64::from(ray.t_max), &mut met.cost) {
+                    met.hits += 1;
+                    met.t += t;
+                }
+            }
+        })
+    }
+
+    /// Traces all rays on some threads in packets; `trace` tells how many meet anything, and the sum of the distances.
+    fn packets(&self, threads: usize, trace: impl Fn(&mut Room, &mut Cost) -> (u32, f64) + Sync) -> Met {
+        self.chunks(threads, |rays, met| {
+            let mut room = Room { packet: Packet::default(), t_max: [0.0; PACKET], best: Bests::default() };
+            for rays in rays.chunks(PACKET) {
+                room.packet.clear();
+                for ray in rays {
+                    room.t_max[room.packet.push(&ray.ray())] = f64::from(ray.t_max);
+                }
+                let (hits, t) = trace(&mut room, &mut met.cost);
+                met.hits += u64::from(hits);
+                met.t += t;
+            }
+        })
+    }
+
+    /// Hands rays out to some threads, a chunk at a time.
+    fn chunks(&self, threads: usize, trace: impl Fn(&[FileRay], &mut Met) + Sync) -> Met {
         let next = AtomicUsize::new(0);
         let work = || {
             let mut met = Met::default();
             while let Some(rays) = self.rays.get(next.fetch_add(CHUNK, Ordering::Relaxed)..) {
-                for ray in &rays[..rays.len().min(CHUNK)] {
-                    if let Some(t) = trace(&ray.ray(), f64::from(ray.t_max), &mut met.cost) {
-                        met.hits += 1;
-                        met.t += t;
-                    }
-                }
+                trace(&rays[..rays.len().min(CHUNK)], &mut met);
             }
             met
         };

@@ -21,7 +21,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`math`] | the only door to functions beyond `+ − × ÷ √` |
-//! | [`space`], [`transform`] | rays, bounds, placement |
+//! | [`space`], [`packet`], [`transform`] | rays, rays that travel together, bounds, placement |
 //! | [`color`] | linear RGB and the sRGB transfer curve |
 //! | [`name`], [`hidden`], [`describe`], [`asset`], [`written`] | what a thing is called, how its fields are read and written, files it refers to, where it stands in a file |
 //! | [`lanes`] | several numbers at once, at the level the machine has |
@@ -40,6 +40,8 @@ mod components {
 pub mod math;
 
 pub mod space;
+
+pub mod packet;
 
 pub mod transform;
 

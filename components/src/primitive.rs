@@ -6,6 +6,7 @@
 use crate::{
     describe::{Describe, Fault},
     method::Methods,
+    packet::{self, Hits, Mask, Packet, PerRay},
     space::{BoundingSphere, Bounds, Ray},
 };
 use bevy_ecs::{component::Mutable, prelude::*};
@@ -43,6 +44,24 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
     /// Like `blocks` by other methods; must agree with `hit_with`.
     fn blocks_with(packed: &Self::Packed, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
         Self::hit_with(packed, ray, t_max, with, cost).is_some_and(|hit| hit.t < t_max)
+    }
+
+    /// `hit` for some rays of a packet, each with a `t_max` of its own: tells which hit, and where. By default one after
+    /// the other; worth writing for shapes that test several rays at once faster, with the very same bits.
+    fn hit_packet(
+        packed: &Self::Packed,
+        packet: &Packet,
+        rays: Mask,
+        t_max: &PerRay,
+        hits: &mut Hits,
+        cost: &mut Cost,
+    ) -> Mask {
+        packet::hit_each(rays, hits, |i| Self::hit(packed, &packet.ray(i), t_max[i], cost))
+    }
+
+    /// `blocks` for some rays of a packet, each with a `t_max` of its own: tells which are blocked.
+    fn blocks_packet(packed: &Self::Packed, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
+        packet::blocked_each(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost))
     }
 
     /// The surface at a hit that `hit` returned for this ray; runs once per ray, for the nearest hit only.

@@ -8,7 +8,9 @@
 
 mod bins;
 mod blocks;
+mod box_ray;
 mod build;
+mod packet;
 mod reach;
 mod traverse;
 
@@ -16,6 +18,9 @@ use crate::{math, space::Bounds};
 use glam::DVec3;
 
 pub(crate) use blocks::{BLOCK, Blocks};
+pub(crate) use box_ray::{above, is_beyond_boxes};
+pub use packet::fits_boxes;
+pub(crate) use packet::{BoxRays, Limits, PacketVisitor};
 pub(crate) use reach::{reaches, surely_reaches};
 pub(crate) use traverse::{Leaf, Visitor};
 

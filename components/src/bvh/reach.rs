@@ -7,7 +7,7 @@
 
 use super::{
     Box32, Node,
-    traverse::{BoxRay, is_beyond_boxes, larger},
+    box_ray::{BoxRay, is_beyond_boxes, larger},
 };
 use crate::{
     lanes::{self, Job, Lanes},
@@ -59,7 +59,7 @@ fn enters(ray: &Ray, bounds: &Box32, t: f64) -> bool {
         #[inline(always)]
         fn run<L: Lanes>(self, lanes: L) -> bool {
             let Self(ray, node, t) = self;
-            BoxRay::new(lanes, ray).enter(lanes, node, super::traverse::above(t)).1 & 1 != 0
+            BoxRay::new(lanes, ray).enter(lanes, node, super::box_ray::above(t)).1 & 1 != 0
         }
     }
 

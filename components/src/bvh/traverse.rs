@@ -1,110 +1,15 @@
 //! Walking the tree along a ray, nearest child first.
 
-use super::{Blocks, Bvh, Child, Node, WIDTH};
+use super::{
+    Blocks, Bvh, Child, Node, WIDTH,
+    box_ray::{BoxRay, above, is_beyond_boxes, padded},
+};
 use crate::{
     lanes::{self, Job, Lanes, Room, Stack},
     primitive::Cost,
     space::Ray,
 };
 use core::ops::Range;
-use glam::DVec3;
-
-/// Relative slack on distances: four roundings of `f32` on either side, of which three occur.
-const SLACK: f64 = 4.0 / (1u64 << 24) as f64;
-
-/// How far a ray is widened, in ulps of its origin's largest coordinate: an exact test takes the ray to its own space
-/// first, and may find a hit that much beside the ray, and so outside the bounds. Matters for rays along an axis alone;
-/// on all others the slack on distances is far larger.
-const ORIGIN_ULPS: f64 = 64.0;
-
-/// More than the rounding of any number to `f32`, relative; and the least `f32`, for those near zero.
-const ULP32: f64 = f32::EPSILON as f64;
-const TINY32: f64 = f32::from_bits(1) as f64;
-
-/// A ray prepared for box tests in `f32` that err on the safe side only.
-///
-/// The distance to a plane is `(plane − origin) · inverse`. The origin and the inverse direction are moved before they
-/// are rounded to `f32`, the way that makes near distances smaller and far ones larger; the two operations and the
-/// rounding then add at most three roundings, which [`SLACK`] outweighs. An inverse that makes near distances smaller
-/// stays finite, one that makes far distances larger is never zero.
-pub(super) struct BoxRay<L: Lanes> {
-    /// Origins and inverse directions for near planes.
-    near: [(L::F, L::F); 3],
-    /// Origins and inverse directions for far planes.
-    far: [(L::F, L::F); 3],
-    /// Which of a node's planes are the near ones, and which the far ones.
-    near_planes: [usize; 3],
-    far_planes: [usize; 3],
-}
-
-impl<L: Lanes> BoxRay<L> {
-    /// The ray must not start [beyond boxes](is_beyond_boxes).
-    #[inline(always)]
-    pub(super) fn new(lanes: L, ray: &Ray) -> Self {
-        let l = lanes;
-        let origin = l.d_load(&padded(ray.origin));
-        let direction = l.d_load(&padded(ray.direction));
-        let reach = ray.origin.abs();
-        let reach = larger(larger(reach.x, reach.y), reach.z);
-        let margin = l.d_splat(ORIGIN_ULPS * f64::EPSILON * reach + TINY32);
-        let spread = l.d_add(l.d_mul(l.d_abs(origin), l.d_splat(ULP32)), margin);
-        let ahead = l.d_with_sign(spread, direction);
-        let near = l.d_narrow(l.d_add(origin, ahead));
-        let far = l.d_narrow(l.d_sub(origin, ahead));
-        let inverse = l.d_div(l.d_splat(1.0), direction);
-        let (most, least) = (l.d_splat(f64::from(f32::MAX)), l.d_splat(f64::from(f32::MIN)));
-        let shrunk = l.d_mul(inverse, l.d_splat(1.0 - SLACK));
-        let shrunk = l.d_narrow(l.d_max(l.d_min(shrunk, most), least));
-        let tiny = l.d_with_sign(l.d_splat(TINY32), inverse);
-        let grown = l.d_narrow(l.d_add(l.d_mul(inverse, l.d_splat(1.0 + SLACK)), tiny));
-        // The sign bit, so that −0 and +0 lead to the same planes as the inverse they make.
-        let negative = l.d_signs(direction) as usize;
-        let [x, y, z] = [3 * (negative & 1), 3 * (negative >> 1 & 1), 3 * (negative >> 2 & 1)];
-        Self {
-            near: [
-                (l.f_splat(near[0]), l.f_splat(shrunk[0])),
-                (l.f_splat(near[1]), l.f_splat(shrunk[1])),
-                (l.f_splat(near[2]), l.f_splat(shrunk[2])),
-            ],
-            far: [
-                (l.f_splat(far[0]), l.f_splat(grown[0])),
-                (l.f_splat(far[1]), l.f_splat(grown[1])),
-                (l.f_splat(far[2]), l.f_splat(grown[2])),
-            ],
-            near_planes: [x, 1 + y, 2 + z],
-            far_planes: [3 - x, 4 - y, 5 - z],
-        }
-    }
-
-    /// Distances at which the ray enters the children of a node, and which children it enters within `limit`.
-    #[inline(always)]
-    pub(super) fn enter(&self, lanes: L, node: &Node, limit: f32) -> (L::F, u32) {
-        let l = lanes;
-        let mut near = l.f_splat(0.0);
-        let mut far = l.f_splat(limit);
-        for axis in 0..3 {
-            // Comparisons with NaN (a ray in a face) keep what was known.
-            let (origin, inverse) = self.near[axis];
-            let plane = l.f_load(&node.planes[self.near_planes[axis]]);
-            near = l.f_max(l.f_mul(l.f_sub(plane, origin), inverse), near);
-            let (origin, inverse) = self.far[axis];
-            let plane = l.f_load(&node.planes[self.far_planes[axis]]);
-            far = l.f_min(l.f_mul(l.f_sub(plane, origin), inverse), far);
-        }
-        (near, l.f_le(near, far))
-    }
-}
-
-/// A vector in four lanes; the last holds something that divides.
-#[inline(always)]
-fn padded(v: DVec3) -> [f64; 4] {
-    [v.x, v.y, v.z, 1.0]
-}
-
-#[inline(always)]
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
-}
 
 /// [`Ray::is_valid`] on lanes.
 #[inline(always)]
@@ -115,19 +20,6 @@ fn is_valid<L: Lanes>(lanes: L, ray: &Ray) -> bool {
     // Zero times a number is zero unless that is infinite or not a number.
     let sum = l.d_add(l.d_mul(origin, zero), l.d_mul(direction, zero));
     l.d_le(sum, zero) == 0b1111 && l.d_lt(zero, l.d_abs(direction)) & 0b111 != 0
-}
-
-/// An `f32` not below a distance that is not negative.
-#[inline(always)]
-pub(super) fn above(t: f64) -> f32 {
-    (t * (1.0 + ULP32) + TINY32) as f32
-}
-
-/// Whether a ray starts where the differences to boxes leave the range of `f32`: what they say then is worth nothing.
-#[inline(always)]
-pub(super) fn is_beyond_boxes(origin: DVec3) -> bool {
-    let reach = origin.abs();
-    larger(larger(reach.x, reach.y), reach.z) > 0.25 * f64::from(f32::MAX)
 }
 
 /// A leaf, as the tree stores it: a run of the order for a [`Bvh`], one block for [`Blocks`].

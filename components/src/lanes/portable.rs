@@ -48,6 +48,14 @@ impl Lanes for Portable {
     fn f_le(self, a: [f32; 8], b: [f32; 8]) -> u32 {
         mask::<8>(|i| a[i] <= b[i])
     }
+    #[inline(always)]
+    fn f_least_of_le(self, a: [f32; 8], b: [f32; 8], c: [f32; 8]) -> ([f32; 8], u32) {
+        (from_fn(|i| if a[i] <= b[i] && a[i] < c[i] { a[i] } else { c[i] }), self.f_le(a, b))
+    }
+    #[inline(always)]
+    fn spread(self, bits: u32) -> u64 {
+        (0..8).fold(0, |spread, i| spread | u64::from(bits >> i & 1) << (8 * i))
+    }
 
     #[inline(always)]
     fn d_load(self, from: &[f64; 4]) -> [f64; 4] {
@@ -86,6 +94,10 @@ impl Lanes for Portable {
         from_fn(|i| a[i] / b[i])
     }
     #[inline(always)]
+    fn d_sqrt(self, a: [f64; 4]) -> [f64; 4] {
+        a.map(f64::sqrt)
+    }
+    #[inline(always)]
     fn d_min(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
         from_fn(|i| if a[i] < b[i] { a[i] } else { b[i] })
     }
@@ -112,5 +124,9 @@ impl Lanes for Portable {
     #[inline(always)]
     fn d_le(self, a: [f64; 4], b: [f64; 4]) -> u32 {
         mask::<4>(|i| a[i] <= b[i])
+    }
+    #[inline(always)]
+    fn d_if_lt(self, a: [f64; 4], b: [f64; 4], x: [f64; 4], y: [f64; 4]) -> [f64; 4] {
+        from_fn(|i| if a[i] < b[i] { x[i] } else { y[i] })
     }
 }

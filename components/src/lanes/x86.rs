@@ -97,12 +97,21 @@ macro_rules! common {
             let sign = _mm256_set1_pd(-0.0);
             _mm256_or_pd(_mm256_andnot_pd(sign, a), _mm256_and_pd(sign, b))
         });
+        op!(d_sqrt(a: __m256d) -> __m256d = _mm256_sqrt_pd(a));
+        op!(spread(bits: u32) -> u64 = _pdep_u64(u64::from(bits), 0x0101_0101_0101_0101));
         op!(d_signs(a: __m256d) -> u32 = _mm256_movemask_pd(a) as u32);
     };
 }
 
 impl Lanes for Avx2 {
     common!();
+
+    op!(f_least_of_le(a: __m256, b: __m256, c: __m256) -> (__m256, u32) = {
+        let le = _mm256_cmp_ps::<_CMP_LE_OQ>(a, b);
+        (_mm256_blendv_ps(c, _mm256_min_ps(a, c), le), _mm256_movemask_ps(le) as u32)
+    });
+    op!(d_if_lt(a: __m256d, b: __m256d, x: __m256d, y: __m256d) -> __m256d =
+        _mm256_blendv_pd(y, x, _mm256_cmp_pd::<_CMP_LT_OQ>(a, b)));
 
     op!(f_le(a: __m256, b: __m256) -> u32 = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32);
     op!(d_lt(a: __m256d, b: __m256d) -> u32 = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LT_OQ>(a, b)) as u32);
@@ -111,6 +120,13 @@ impl Lanes for Avx2 {
 
 impl Lanes for Avx512 {
     common!();
+
+    op!(f_least_of_le(a: __m256, b: __m256, c: __m256) -> (__m256, u32) = {
+        let le = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(a, b);
+        (_mm256_mask_min_ps(c, le, a, c), u32::from(le))
+    });
+    op!(d_if_lt(a: __m256d, b: __m256d, x: __m256d, y: __m256d) -> __m256d =
+        _mm256_mask_blend_pd(_mm256_cmp_pd_mask::<_CMP_LT_OQ>(a, b), y, x));
 
     op!(f_le(a: __m256, b: __m256) -> u32 = u32::from(_mm256_cmp_ps_mask::<_CMP_LE_OQ>(a, b)));
     op!(d_lt(a: __m256d, b: __m256d) -> u32 = u32::from(_mm256_cmp_pd_mask::<_CMP_LT_OQ>(a, b)));

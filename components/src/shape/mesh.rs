@@ -9,6 +9,7 @@ use crate::{
     choice,
     describe::Describe,
     method::Methods,
+    packet::{Hits, Mask, Packet, PerRay},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Bounds, Ray},
 };
@@ -407,6 +408,23 @@ impl Primitive for Mesh {
     fn blocks_with(packed: &PackedMesh, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
         let ray = ray.transformed(&packed.placed.object_from_world);
         packed.placed.mesh.blocks_with(&ray, t_max, with, cost)
+    }
+
+    fn hit_packet(
+        packed: &PackedMesh,
+        packet: &Packet,
+        rays: Mask,
+        t_max: &PerRay,
+        hits: &mut Hits,
+        cost: &mut Cost,
+    ) -> Mask {
+        let placed = &*packed.placed;
+        placed.tree.nearest_packet(&placed.object_from_world, packet, rays, t_max, hits, cost)
+    }
+
+    fn blocks_packet(packed: &PackedMesh, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
+        let placed = &*packed.placed;
+        placed.tree.blocks_packet(&placed.object_from_world, packet, rays, t_max, cost)
     }
 
     #[inline]

@@ -17,8 +17,8 @@ use rayon::prelude::*;
 /// A tree, and the triangles in the order of its leaves: four in a block.
 #[derive(Debug)]
 pub(super) struct MeshTree {
-    tree: Blocks,
-    blocks: Vec<Block>,
+    pub(super) tree: Blocks,
+    pub(super) blocks: Vec<Block>,
     /// Where each triangle stands: four times its block and its lane.
     places: Vec<u32>,
     /// Around all triangles, object space.
@@ -129,7 +129,7 @@ struct Search<'a> {
 }
 
 /// More than the number of any triangle.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 impl<'a> Search<'a> {
     #[inline(always)]
@@ -152,7 +152,7 @@ impl<'a> Search<'a> {
 
 /// Whether a walk comes to a triangle of a block in time for a hit of it: see [`reaches`].
 #[inline(always)]
-fn counts<L: Lanes>(lanes: L, ray: &Ray, block: &Block, lane: usize, t: f64) -> bool {
+pub(super) fn counts<L: Lanes>(lanes: L, ray: &Ray, block: &Block, lane: usize, t: f64) -> bool {
     surely_reaches(lanes, ray, block.bounds_of(lane), t) || reaches(ray, &block.vertices_of(lane), t)
 }
 

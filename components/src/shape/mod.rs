@@ -5,6 +5,7 @@ mod cuboid;
 mod cylinder;
 mod mesh;
 mod mesh_methods;
+mod mesh_packet;
 mod mesh_tree;
 mod moller_trumbore;
 mod plane;

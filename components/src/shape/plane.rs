@@ -4,6 +4,8 @@
 
 use crate::{
     describe::Describe,
+    lanes::{self, Job, Lanes},
+    packet::{self, Hits, Mask, Packet, PerRay, four},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::Ray,
 };
@@ -20,6 +22,48 @@ pub struct PackedPlane {
     point: DVec3,
     normal: DVec3,
     object_from_world: DAffine3,
+}
+
+/// The test of a plane with some rays of a packet; tells which hit up to `t_max`, and where if that is asked for.
+struct Crossings<'a> {
+    plane: &'a PackedPlane,
+    packet: &'a Packet,
+    rays: Mask,
+    t_max: &'a PerRay,
+    t: Option<&'a mut PerRay>,
+}
+
+impl Job for Crossings<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Mask {
+        let Self { plane: PackedPlane { point, normal, .. }, packet, rays, t_max, mut t } = self;
+        let l = lanes;
+        let [x, y, z] = [l.d_splat(normal.x), l.d_splat(normal.y), l.d_splat(normal.z)];
+        let [px, py, pz] = [l.d_splat(point.x), l.d_splat(point.y), l.d_splat(point.z)];
+        let mut met = 0;
+        for (group, which) in packet::groups(rays) {
+            let [o, d] = packet.four(group);
+            let (dx, dy, dz) = (l.d_load(d[0]), l.d_load(d[1]), l.d_load(d[2]));
+            let toward = l.d_add(l.d_add(l.d_mul(x, dx), l.d_mul(y, dy)), l.d_mul(z, dz));
+            let (wx, wy, wz) = (l.d_sub(px, l.d_load(o[0])), l.d_sub(py, l.d_load(o[1])), l.d_sub(pz, l.d_load(o[2])));
+            let away = l.d_add(l.d_add(l.d_mul(x, wx), l.d_mul(y, wy)), l.d_mul(z, wz));
+            let (distances, limit) = (l.d_div(away, toward), l.d_load(four(t_max, group)));
+            let zero = l.d_splat(0.0);
+            let within = match &mut t {
+                Some(t) => {
+                    l.d_store(distances, &mut t.as_chunks_mut().0[group]);
+                    l.d_le(distances, limit)
+                }
+                None => l.d_lt(distances, limit),
+            };
+            // A ray in or along the plane misses it.
+            let hit = l.d_lt(zero, l.d_abs(toward)) & l.d_lt(zero, distances) & within;
+            met |= Mask::from(hit & which) << (4 * group);
+        }
+        met
+    }
 }
 
 impl Primitive for Plane {
@@ -42,6 +86,25 @@ impl Primitive for Plane {
         }
         let t = packed.normal.dot(packed.point - ray.origin) / toward;
         (t > 0.0 && t <= t_max).then_some(Hit { t, part: 0 })
+    }
+
+    fn hit_packet(
+        packed: &PackedPlane,
+        packet: &Packet,
+        rays: Mask,
+        t_max: &PerRay,
+        hits: &mut Hits,
+        cost: &mut Cost,
+    ) -> Mask {
+        cost.primitives += u64::from(rays.count_ones());
+        let met = lanes::run(Crossings { plane: packed, packet, rays, t_max, t: Some(&mut hits.t) });
+        packet::each(met).for_each(|i| hits.part[i] = 0);
+        met
+    }
+
+    fn blocks_packet(packed: &PackedPlane, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
+        cost.primitives += u64::from(rays.count_ones());
+        lanes::run(Crossings { plane: packed, packet, rays, t_max, t: None })
     }
 
     fn surface(packed: &PackedPlane, ray: &Ray, hit: Hit) -> Surface {

@@ -31,6 +31,10 @@ pub struct Sheared<R> {
 }
 
 impl<R: Real> Sheared<R> {
+    /// Of no ray.
+    pub(crate) const NONE: Self =
+        Self { start: [R::ZERO; 3], kx: 0, ky: 1, kz: 2, shear_x: R::ZERO, shear_y: R::ZERO, scale_z: R::ONE };
+
     /// Prepares a ray; its direction must not be zero.
     #[must_use]
     #[inline]

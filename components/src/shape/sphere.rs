@@ -5,8 +5,10 @@
 
 use crate::{
     describe::Describe,
+    lanes::{self, Job, Lanes},
     math,
     method::{Methods, Precision, SphereTest},
+    packet::{self, Hits, Mask, Packet, PerRay, four},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     real::{self, Real, Vector},
     space::{BoundingSphere, Bounds, Ray},
@@ -104,6 +106,81 @@ pub fn nearest_root<R: Real>(center: DVec3, radius: f64, ray: &Ray, t_max: f64) 
     nearer(t0, t1, t_max)
 }
 
+/// [`nearest_root`] in `f64` of four rays: which are hit, and at what distances.
+#[inline(always)]
+fn nearest_roots<L: Lanes>(
+    lanes: L,
+    center: DVec3,
+    radius: f64,
+    [origins, directions]: [[&[f64; 4]; 3]; 2],
+    t_max: &[f64; 4],
+) -> (u32, L::D) {
+    let l = lanes;
+    let [x, y, z] = [l.d_load(directions[0]), l.d_load(directions[1]), l.d_load(directions[2])];
+    let fx = l.d_sub(l.d_load(origins[0]), l.d_splat(center.x));
+    let fy = l.d_sub(l.d_load(origins[1]), l.d_splat(center.y));
+    let fz = l.d_sub(l.d_load(origins[2]), l.d_splat(center.z));
+    let (zero, radius) = (l.d_splat(0.0), l.d_splat(radius));
+    let a = dot(l, [x, y, z], [x, y, z]);
+    // Nothing cancels in a changed sign: −b for b.
+    let minus_b = dot(l, [fx, fy, fz], [x, y, z]);
+    let step = l.d_div(minus_b, a);
+    let foot = [l.d_sub(fx, l.d_mul(x, step)), l.d_sub(fy, l.d_mul(y, step)), l.d_sub(fz, l.d_mul(z, step))];
+    let gap = l.d_sub(l.d_mul(radius, radius), dot(l, foot, foot));
+    let missed = l.d_lt(gap, zero);
+    if missed == 0b1111 {
+        return (0, zero);
+    }
+    let distance = l.d_sqrt(dot(l, [fx, fy, fz], [fx, fy, fz]));
+    let c = l.d_mul(l.d_sub(distance, radius), l.d_add(distance, radius));
+    let root = l.d_sqrt(l.d_mul(a, gap));
+    let b = l.d_sub(zero, minus_b);
+    let q = l.d_if_lt(b, zero, l.d_sub(b, root), l.d_add(b, root));
+    let (t0, t1) = (l.d_div(c, q), l.d_div(q, a));
+    let (near, far) = (l.d_if_lt(t0, t1, t0, t1), l.d_if_lt(t0, t1, t1, t0));
+    let t = l.d_if_lt(zero, near, near, far);
+    let hit = l.d_lt(zero, t) & l.d_le(t, l.d_load(t_max)) & l.d_lt(zero, l.d_abs(q));
+    (hit & !missed, t)
+}
+
+#[inline(always)]
+fn dot<L: Lanes>(l: L, a: [L::D; 3], b: [L::D; 3]) -> L::D {
+    l.d_add(l.d_add(l.d_mul(a[0], b[0]), l.d_mul(a[1], b[1])), l.d_mul(a[2], b[2]))
+}
+
+/// The test of a ball with some rays of a packet; tells which hit up to `t_max`, and where if that is asked for.
+struct Roots<'a> {
+    center: DVec3,
+    radius: f64,
+    packet: &'a Packet,
+    rays: Mask,
+    t_max: &'a PerRay,
+    t: Option<&'a mut PerRay>,
+}
+
+impl Job for Roots<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, lanes: L) -> Mask {
+        let Self { center, radius, packet, rays, t_max, mut t } = self;
+        let mut met = 0;
+        for (group, which) in packet::groups(rays) {
+            let t_max = four(t_max, group);
+            let (hit, distances) = nearest_roots(lanes, center, radius, packet.four(group), t_max);
+            let hit = match &mut t {
+                Some(t) => {
+                    lanes.d_store(distances, &mut t.as_chunks_mut().0[group]);
+                    hit
+                }
+                None => hit & lanes.d_lt(distances, lanes.d_load(t_max)),
+            };
+            met |= Mask::from(hit & which) << (4 * group);
+        }
+        met
+    }
+}
+
 /// The nearest hit with `0 < t <= t_max` by the quadratic as textbooks have it: the discriminant cancels for spheres
 /// that are far away or large, and the nearer root from within or near the surface.
 #[must_use]
@@ -173,6 +250,39 @@ impl Primitive for Sphere {
             (SphereTest::Naive, Precision::F32) => naive_root::<f32>,
         };
         packed.hit_by(root, ray, t_max, cost)
+    }
+
+    #[inline]
+    fn hit_packet(
+        packed: &PackedSphere,
+        packet: &Packet,
+        rays: Mask,
+        t_max: &PerRay,
+        hits: &mut Hits,
+        cost: &mut Cost,
+    ) -> Mask {
+        let PackedSphere { center, radius, .. } = *packed;
+        match packed.form {
+            Form::Ball(_) if rays.count_ones() > 1 => {
+                cost.primitives += u64::from(rays.count_ones());
+                let met = lanes::run(Roots { center, radius, packet, rays, t_max, t: Some(&mut hits.t) });
+                packet::each(met).for_each(|i| hits.part[i] = 0);
+                met
+            }
+            _ => packet::hit_each(rays, hits, |i| Self::hit(packed, &packet.ray(i), t_max[i], cost)),
+        }
+    }
+
+    #[inline]
+    fn blocks_packet(packed: &PackedSphere, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
+        let PackedSphere { center, radius, .. } = *packed;
+        match packed.form {
+            Form::Ball(_) if rays.count_ones() > 1 => {
+                cost.primitives += u64::from(rays.count_ones());
+                lanes::run(Roots { center, radius, packet, rays, t_max, t: None })
+            }
+            _ => packet::blocked_each(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost)),
+        }
     }
 
     fn surface(packed: &PackedSphere, ray: &Ray, hit: Hit) -> Surface {

@@ -1,10 +1,11 @@
 //! Every shape of a scene, and the tree over them.
 
-use super::pool::{Best, ErasedPool, Nearest, Run};
+use super::pool::{Best, Bests, ErasedPool, Nearest, Run};
 use glam::DVec3;
 use snell_components::{
-    bvh::{Box32, Bvh},
+    bvh::{Box32, Bvh, fits_boxes},
     method::{Accelerator, Methods, Precision},
+    packet::{Mask, Packet, PerRay, each},
     primitive::{Cost, Extent, Hit, Surface},
     space::{BoundingSphere, Ray},
     sphere_tree::SphereTree,
@@ -16,6 +17,9 @@ const LEAF: usize = 2;
 
 /// Up to so many shapes are tested one by one: preparing a ray for boxes costs more than it saves.
 const FLAT: usize = 4;
+
+/// Fewer rays than this go one by one.
+const FEW_RAYS: u32 = 3;
 
 /// Where a ray met an object.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -263,6 +267,73 @@ impl Geometry {
             }
             _ => bounded.iter().any(|run| blocks(run, cost)),
         }
+    }
+
+    /// [`Geometry::nearest`] for all rays of a packet, the same to the last bit; `best` has begun.
+    pub fn nearest_packet(&self, packet: &Packet, with: &Methods, best: &mut Bests, cost: &mut Cost) {
+        let rays = self.together(packet, packet.valid(), with);
+        for i in each(packet.valid() & !rays) {
+            best.set(i, self.nearest(&packet.ray(i), best.limit[i], with, cost));
+        }
+        if rays == 0 {
+            return;
+        }
+        let (unbounded, bounded) = self.runs.split_at(self.unbounded);
+        let search = |runs: &[Run], rays: Mask, best: &mut Bests, cost: &mut Cost| {
+            for run in runs {
+                self.pools[run.pool as usize].closest_packet(*run, packet, rays, best, cost);
+            }
+        };
+        search(unbounded, rays, best, cost);
+        let Some(tree) = &self.tree else { return search(bounded, rays, best, cost) };
+        let mut limits = best.limit;
+        tree.walk_packet(packet, rays, &mut limits, cost, |leaf, rays, limits, cost| {
+            let (begin, end) = self.leaf_runs[leaf.start];
+            search(&self.runs[begin as usize..end as usize], rays, best, cost);
+            for i in each(rays) {
+                limits[i] = best.limit[i];
+            }
+        });
+    }
+
+    /// [`Geometry::blocked`] for some rays of a packet: which are blocked before their `t_max`.
+    #[must_use]
+    pub fn blocked_packet(&self, packet: &Packet, rays: Mask, t_max: &PerRay, with: &Methods, cost: &mut Cost) -> Mask {
+        let rays = rays & packet.valid();
+        let together = self.together(packet, rays, with);
+        let alone = each(rays & !together).filter(|&i| self.blocked(&packet.ray(i), t_max[i], with, cost));
+        let alone = alone.fold(0, |blocked, i| blocked | 1 << i);
+        if together == 0 {
+            return alone;
+        }
+        let blocks = |runs: &[Run], rays: Mask, cost: &mut Cost| {
+            let mut blocked = 0;
+            for run in runs {
+                let rest = rays & !blocked;
+                if rest == 0 {
+                    break;
+                }
+                blocked |= self.pools[run.pool as usize].blocks_packet(*run, packet, rest, t_max, cost);
+            }
+            blocked
+        };
+        let flat = if self.tree.is_some() { self.unbounded } else { self.runs.len() };
+        let blocked = blocks(&self.runs[..flat], together, cost);
+        let (Some(tree), rest) = (&self.tree, together & !blocked) else { return alone | blocked };
+        let within = tree.any_packet(packet, rest, t_max, cost, |leaf, rays, cost| {
+            let (begin, end) = self.leaf_runs[leaf.start];
+            blocks(&self.runs[begin as usize..end as usize], rays, cost)
+        });
+        alone | blocked | within
+    }
+
+    /// Those of some rays that are searched for together; the others go one by one.
+    fn together(&self, packet: &Packet, rays: Mask, with: &Methods) -> Mask {
+        if !with.is_default() {
+            return 0;
+        }
+        let fit = if self.tree.is_some() { rays & fits_boxes(packet) } else { rays };
+        if fit.count_ones() < FEW_RAYS { 0 } else { fit }
     }
 
     #[inline(always)]

@@ -10,4 +10,4 @@ mod pool;
 
 pub use geometry::{Geometry, Intersection};
 pub use pack::{Scenery, build, pack, pool, unpack};
-pub use pool::{ErasedPool, Nearest, Pool};
+pub use pool::{Bests, ErasedPool, Nearest, Pool};

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use snell_components::{
     method::Methods,
+    packet::{Hits, Mask, PACKET, Packet, PerRay, each},
     primitive::{Cost, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Ray},
 };
@@ -52,6 +53,12 @@ pub trait ErasedPool: Send + Sync {
     /// Whether a shape of the run blocks the ray before `t_max`.
     fn blocks(&self, run: Run, ray: &Ray, t_max: f64, with: Option<&Methods>, cost: &mut Cost) -> bool;
 
+    /// [`ErasedPool::closest`] by the default methods for some rays of a packet.
+    fn closest_packet(&self, run: Run, packet: &Packet, rays: Mask, best: &mut Bests, cost: &mut Cost);
+
+    /// [`ErasedPool::blocks`] by the default methods for some rays of a packet: which are blocked before their `t_max`.
+    fn blocks_packet(&self, run: Run, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask;
+
     /// The sphere around a shape, if it is bounded.
     fn bounding_sphere(&self, index: u32) -> Option<BoundingSphere>;
 
@@ -94,6 +101,58 @@ impl Best {
     pub fn nearest(&self) -> Option<Nearest> {
         let Self { limit, part, pool, index, object } = *self;
         (object != NOTHING).then_some(Nearest { hit: Hit { t: limit, part }, pool, index, object })
+    }
+}
+
+/// What one ray of a packet met so far, but for the distance.
+#[derive(Clone, Copy, Debug)]
+struct Found {
+    part: u32,
+    pool: u32,
+    index: u32,
+    /// `NOTHING` before anything was found.
+    object: u32,
+}
+
+/// A search for the nearest hit of each ray of a packet.
+#[derive(Clone, Debug)]
+pub struct Bests {
+    /// Nothing beyond this matters: the distance of what was found, if anything was.
+    pub limit: PerRay,
+    found: [Found; PACKET],
+    /// Of the shape at hand.
+    hits: Hits,
+}
+
+impl Default for Bests {
+    fn default() -> Self {
+        let nothing = Found { part: 0, pool: 0, index: 0, object: NOTHING };
+        Self { limit: [f64::INFINITY; PACKET], found: [nothing; PACKET], hits: Hits::default() }
+    }
+}
+
+impl Bests {
+    /// Nothing found yet by the rays up to `len`, up to a distance.
+    pub fn begin(&mut self, len: usize, limit: f64) {
+        self.limit[..len].fill(limit);
+        self.found[..len].iter_mut().for_each(|found| found.object = NOTHING);
+    }
+
+    /// What a ray found.
+    #[must_use]
+    #[inline]
+    pub fn nearest(&self, i: usize) -> Option<Nearest> {
+        let Found { part, pool, index, object } = self.found[i];
+        (object != NOTHING).then_some(Nearest { hit: Hit { t: self.limit[i], part }, pool, index, object })
+    }
+
+    /// Takes what a ray found alone.
+    pub fn set(&mut self, i: usize, nearest: Option<Nearest>) {
+        self.found[i].object = NOTHING;
+        if let Some(Nearest { hit: Hit { t, part }, pool, index, object }) = nearest {
+            self.limit[i] = t;
+            self.found[i] = Found { part, pool, index, object };
+        }
     }
 }
 
@@ -161,6 +220,33 @@ impl<P: Primitive> ErasedPool for Pool<P> {
             None => shapes.any(|shape| P::blocks(shape, ray, t_max, cost)),
             Some(with) => shapes.any(|shape| P::blocks_with(shape, ray, t_max, with, cost)),
         }
+    }
+
+    fn closest_packet(&self, run: Run, packet: &Packet, rays: Mask, best: &mut Bests, cost: &mut Cost) {
+        for index in run.first..run.end {
+            let object = self.objects[index as usize];
+            let Bests { limit, hits, .. } = best;
+            let met = P::hit_packet(&self.shapes[index as usize], packet, rays, limit, hits, cost);
+            for i in each(met) {
+                let Hits { t, part } = &best.hits;
+                let (t, part) = (t[i], part[i]);
+                if t < best.limit[i] || object < best.found[i].object {
+                    best.limit[i] = t;
+                    best.found[i] = Found { part, pool: run.pool, index, object };
+                }
+            }
+        }
+    }
+
+    fn blocks_packet(&self, run: Run, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
+        let mut blocked = 0;
+        for shape in &self.shapes[run.first as usize..run.end as usize] {
+            blocked |= P::blocks_packet(shape, packet, rays & !blocked, t_max, cost);
+            if blocked == rays {
+                break;
+            }
+        }
+        blocked
     }
 
     fn bounding_sphere(&self, index: u32) -> Option<BoundingSphere> {

@@ -5,6 +5,7 @@ use crate::render::Key;
 use glam::DVec3;
 use snell_components::{
     method::Methods,
+    packet::{Hits, Mask, PACKET, Packet},
     primitive::{Cost, Hit, Primitive, Surface},
     space::Ray,
 };
@@ -24,8 +25,42 @@ pub(super) fn check<P: Primitive>(case: &Case<P>, report: &mut Report) {
             check_hit(case, &ray, hit, report);
         }
     }
+    check_packets(case, report);
     if hits == 0 {
         report.add("bounds", &case.name, format!("none of {RAYS} rays into the bounds hits anything"));
+    }
+}
+
+/// Rays together against the same rays alone, to the last bit, with limits before, at and behind what they hit.
+fn check_packets<P: Primitive>(case: &Case<P>, report: &mut Report) {
+    let rays: Vec<Ray> = case.rays(RAYS / 4, 3).collect();
+    for (n, rays) in (0..).zip(rays.chunks(PACKET)) {
+        let (mut packet, mut t_max) = (Packet::default(), [f64::INFINITY; PACKET]);
+        // Not all of a packet are asked for.
+        let asked = Key::of_pixel(n, 4, 7).child(n).sample(0).x.to_bits() | 1;
+        for (i, ray) in rays.iter().enumerate() {
+            let t = case.hit(ray, f64::INFINITY).map_or(1.0, |hit| hit.t);
+            t_max[packet.push(ray)] = [f64::INFINITY, t, t.next_up(), t.next_down(), 0.5 * t][i % 5];
+        }
+        for asked in [packet.all(), packet.all() & asked, packet.all() & 0x8000_0400_0000_0010] {
+            let (mut hits, mut cost) = (Hits::default(), Cost::default());
+            let met = P::hit_packet(&case.packed, &packet, asked, &t_max, &mut hits, &mut cost);
+            let blocked = P::blocks_packet(&case.packed, &packet, asked, &t_max, &mut cost);
+            for (i, ray) in rays.iter().enumerate() {
+                let is = |mask: Mask| mask >> i & 1 == 1;
+                let alone = case.hit(ray, t_max[i]).filter(|_| is(asked)).map(|hit| (hit.t.to_bits(), hit.part));
+                let together = is(met).then(|| (hits.t[i].to_bits(), hits.part[i]));
+                if together != alone {
+                    let what = format!("{ray:?} up to {:?}: alone {alone:x?}, in a packet {together:x?}", t_max[i]);
+                    report.add("packet", &case.name, what);
+                }
+                let alone = is(asked) && P::blocks(&case.packed, ray, t_max[i], &mut cost);
+                if is(blocked) != alone {
+                    let what = format!("{ray:?} up to {:?}: blocked alone {alone}, in a packet not so", t_max[i]);
+                    report.add("packet", &case.name, what);
+                }
+            }
+        }
     }
 }
 

@@ -15,6 +15,7 @@
 //! | `bounds` | every hit lies within them |
 //! | `nearest` | `hit` equals `hit_with` without a tree bit for bit, and nothing nearer is hit with any lower limit |
 //! | `blocks` | `blocks` agrees with `hit` |
+//! | `packet` | rays in a packet hit and are blocked as each is alone, to the last bit |
 //! | `surface` | the point is where the ray is, within its stated error; normals have length 1 |
 //! | `normal` | the normal is that of the hits nearby, by finite differences |
 //! | `departure` | a ray that leaves the surface does not meet it where it starts |

@@ -1,17 +1,18 @@
 //! How rays are placed in a pixel, and what its light is made of.
 
 use super::{
-    Counts, Key,
+    Counts, Key, Region,
     budget::variance_for_pixels,
     footprint::{Beside, Neighbours},
     observe::Observer,
-    trace::{Brought, light_along},
+    trace::{Brought, Room, Start, light_along},
 };
 use crate::snapshot::Snapshot;
 use glam::DVec2;
 use snell_components::{
     color::Rgb,
     method::Methods,
+    packet::PACKET,
     settings::{Antialias, MAX_SUBDIVISIONS, Settings},
 };
 use std::collections::{BTreeMap, BinaryHeap};
@@ -30,6 +31,8 @@ pub(super) struct Pixels<'a, O> {
     changing: BTreeMap<(u32, u32), bool>,
     /// Rays traced so far.
     traced: u32,
+    room: Box<Room>,
+    brought: Vec<Brought>,
 }
 
 /// What a ray through a point of the picture brings.
@@ -44,6 +47,61 @@ pub(super) struct Seen {
     number: u32,
 }
 
+/// Where the `i`th of `n` by `n` rays goes through a pixel.
+fn in_grid(n: u32, x: u32, y: u32, i: u32) -> (f64, f64) {
+    let place = |i: u32| (f64::from(i) + 0.5) / f64::from(n) - 0.5;
+    let (dx, dy) = (place(i / n), place(i % n));
+    (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy)
+}
+
+impl Pixels<'_, ()> {
+    /// The edge of the squares of pixels that are drawn together.
+    pub(super) fn edge(&self) -> u32 {
+        let settings = &self.snapshot.settings;
+        match settings.antialias {
+            Antialias::Off => 8,
+            Antialias::Four => 4,
+            Antialias::Grid => (8 / settings.grid.max(1)).max(1),
+            Antialias::Adaptive => 1,
+        }
+    }
+
+    /// The linear light of some pixels, row by row: each as [`Pixels::light`] tells it.
+    pub(super) fn lights(&mut self, region: Region, lights: &mut Vec<Rgb>) {
+        lights.clear();
+        let settings = &self.snapshot.settings;
+        let n = match settings.antialias {
+            Antialias::Off => 1,
+            Antialias::Four => 2,
+            Antialias::Grid => settings.grid,
+            Antialias::Adaptive => {
+                for i in 0..region.width * region.height {
+                    lights.push(self.light(region.x + i % region.width, region.y + i / region.width));
+                }
+                return;
+            }
+        };
+        let (each, share, spacing) = (n * n, 1.0 / f64::from(n * n), 1.0 / f64::from(n));
+        self.brought.clear();
+        let count = region.width * region.height * each;
+        for first in (0..count).step_by(PACKET) {
+            let rays = first..count.min(first + PACKET as u32);
+            let point = |ray: u32| {
+                let (pixel, i) = (ray / each, ray % each);
+                let (x, y) = (region.x + pixel % region.width, region.y + pixel / region.width);
+                let (px, py) = in_grid(n, x, y, i);
+                (px, py, Key::of_pixel(x, y, i))
+            };
+            self.trace(rays.map(point), spacing);
+        }
+        lights.extend(self.brought.chunks_exact(each as usize).map(|rays| {
+            let mut sum = Rgb::ZERO;
+            rays.iter().for_each(|ray| sum += ray.light * share);
+            sum
+        }));
+    }
+}
+
 /// Steps of the lattice of corners in a pixel: the middle of the smallest part lies on it.
 const STEPS: u32 = 1 << (MAX_SUBDIVISIONS + 1);
 
@@ -54,7 +112,17 @@ impl<'a, O: Observer> Pixels<'a, O> {
         counts: &'a mut Counts,
         observer: &'a mut O,
     ) -> Self {
-        Self { snapshot, methods, counts, observer, corners: Corners::default(), changing: BTreeMap::new(), traced: 0 }
+        Self {
+            snapshot,
+            methods,
+            counts,
+            observer,
+            corners: Corners::default(),
+            changing: BTreeMap::new(),
+            traced: 0,
+            room: Box::default(),
+            brought: vec![],
+        }
     }
 
     /// The linear light of a pixel: a function of snapshot and coordinates.
@@ -84,11 +152,9 @@ impl<'a, O: Observer> Pixels<'a, O> {
     #[inline(always)]
     fn grid(&mut self, n: u32, x: u32, y: u32) -> Rgb {
         let share = 1.0 / f64::from(n * n);
-        let place = |i: u32| (f64::from(i) + 0.5) / f64::from(n) - 0.5;
         let mut sum = Rgb::ZERO;
         for i in 0..n * n {
-            let (dx, dy) = (place(i / n), place(i % n));
-            let (px, py) = (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
+            let (px, py) = in_grid(n, x, y, i);
             let seen = self.through(px, py, 1.0 / f64::from(n), Key::of_pixel(x, y, i));
             self.add(&seen, share, &mut sum);
         }
@@ -98,19 +164,33 @@ impl<'a, O: Observer> Pixels<'a, O> {
     /// What a ray through a point of the picture brings, in pixels from its upper left corner; `spacing` is the distance
     /// to the next ray.
     fn through(&mut self, x: f64, y: f64, spacing: f64, key: Key) -> Seen {
-        let snapshot = self.snapshot;
-        let ray = snapshot.view.ray(x, y, snapshot.settings.width, snapshot.settings.height);
-        self.counts.primary += 1;
         self.observer.sample();
         let number = self.traced;
-        self.traced += 1;
-        let Brought { light, object, cut_bound } = if snapshot.materials.any_filtered {
-            let beside = Neighbours::start(snapshot, x, y, spacing);
-            light_along(snapshot, ray, beside, key, self.methods, self.counts, self.observer)
-        } else {
-            light_along(snapshot, ray, (), key, self.methods, self.counts, self.observer)
-        };
+        self.brought.clear();
+        self.trace(core::iter::once((x, y, key)), spacing);
+        let [Brought { light, object, cut_bound }] = self.brought[..] else { unreachable!("one ray") };
         Seen { light, object, cut_bound, number }
+    }
+
+    /// Adds what rays through some points of the picture bring, at most [`PACKET`], to what was brought.
+    fn trace(&mut self, points: impl Iterator<Item = (f64, f64, Key)>, spacing: f64) {
+        let Self { snapshot, methods, counts, observer, room, brought, .. } = self;
+        let before = brought.len();
+        let Settings { width, height, .. } = snapshot.settings;
+        let ray = |x: f64, y: f64| snapshot.view.ray(x, y, width, height);
+        if snapshot.materials.any_filtered {
+            let starts = points.map(|(x, y, key)| {
+                let beside = Neighbours::start(snapshot, x, y, spacing);
+                Start { ray: ray(x, y), beside, key }
+            });
+            light_along(snapshot, starts, methods, room, counts, *observer, brought);
+        } else {
+            let starts = points.map(|(x, y, key)| Start { ray: ray(x, y), beside: (), key });
+            light_along(snapshot, starts, methods, room, counts, *observer, brought);
+        }
+        let traced = brought.len() - before;
+        self.traced += traced as u32;
+        self.counts.primary += traced as u64;
     }
 
     fn add(&mut self, seen: &Seen, share: f64, sum: &mut Rgb) {

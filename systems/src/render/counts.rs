@@ -1,4 +1,6 @@
 //! What a render did, in numbers that do not depend on the machine.
+//!
+//! Counts of nodes and tests depend on which rays are traced together, and so, by a little, on tiles and region.
 
 use serde::{Deserialize, Serialize};
 use snell_components::primitive::Cost;

@@ -26,12 +26,12 @@ impl Clone for Interior {
 /// The interiors of the rays of a tree, by number; that of the camera is number 0.
 pub(super) struct Interiors<'a> {
     camera: &'a Interior,
-    others: SmallVec<[Interior; 4]>,
+    others: Vec<Interior>,
 }
 
 impl<'a> Interiors<'a> {
     pub(super) fn new(camera: &'a Interior) -> Self {
-        Self { camera, others: SmallVec::new() }
+        Self { camera, others: vec![] }
     }
 
     #[inline]

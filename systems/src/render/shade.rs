@@ -17,6 +17,7 @@ use snell_components::{
     light::{Illumination, Lamp, Sampling},
     math,
     method::Methods,
+    packet::{PACKET, Packet, PerRay, each},
     primitive::{Cost, OFFSET_ULPS, Surface},
     space::Ray,
     texture::{Footprint, TexturePoint},
@@ -68,48 +69,51 @@ impl<'a> Point<'a> {
         Self { snapshot, methods, direction, travelled, surface, material, lift, entering, key }
     }
 
-    /// Sum of the ambient, diffuse and highlight terms; `weight` is what it is multiplied by in the pixel, `interior`
-    /// are the clear bodies that the ray came through.
+    /// What the surface gives without lamps, and what is to be asked of them.
     #[inline]
-    pub(super) fn local<O: Observer>(
-        &self,
-        weight: Rgb,
-        interior: &Interior,
-        footprint: impl FnOnce() -> Footprint,
-        counts: &mut Counts,
-        observer: &mut O,
-    ) -> Rgb {
-        let mut sum = Rgb::ZERO;
-        let lights = self.material.effects.iter().take_while(|effect| effect.is_light());
-        if lights.clone().next().is_none() {
-            return sum;
+    pub(super) fn begin<O: Observer>(&self, footprint: impl FnOnce() -> Footprint, observer: &mut O) -> Local {
+        let mut local = Local { sum: Rgb::ZERO, asks: None, factor: Rgb::ONE, start: DVec3::ZERO, lamps: Rgb::ZERO };
+        if !self.material.effects.first().is_some_and(Effect::is_light) {
+            return local;
         }
         let color = self.color(footprint);
-        for effect in lights {
-            let (factor, light) = match *effect {
-                Effect::Ambient(strength) => (strength * color, self.snapshot.lights.ambient),
+        for effect in &self.material.effects {
+            match *effect {
+                Effect::Ambient(strength) => {
+                    let (factor, light) = (strength * color, self.snapshot.lights.ambient);
+                    local.sum += factor * light;
+                    observer.term(effect, factor, light);
+                }
                 Effect::Diffuse(strength) => {
-                    let factor = strength * color;
-                    let term = |light: &Arriving| light.intensity * light.cosine;
-                    (factor, self.over_lights(weight * factor, interior, counts, observer, term))
+                    local.factor = strength * color;
+                    local.asks = Some(*effect);
                 }
                 Effect::Glossy { diffuse, highlight, exponent } => {
-                    let light = self.over_lights(weight, interior, counts, observer, |light| {
-                        // Where the mirrored light points away from the viewer there is no highlight, whatever the
-                        // exponent.
-                        let mirrored = optics::reflect(-light.direction, self.surface.shading_normal);
-                        let aligned = -mirrored.dot(self.direction);
-                        let shine = if aligned > 0.0 { math::pow(aligned, exponent) } else { 0.0 };
-                        (diffuse * color * light.cosine + highlight * shine) * light.intensity
-                    });
-                    (Rgb::ONE, light)
+                    local.asks = Some(Effect::Glossy { diffuse: diffuse * color, highlight, exponent });
                 }
-                Effect::Mirror(_) | Effect::Through(_) | Effect::Refract(_) | Effect::Split(_) => continue,
-            };
-            sum += factor * light;
-            observer.term(effect, factor, light);
+                Effect::Mirror(_) | Effect::Through(_) | Effect::Refract(_) | Effect::Split(_) => break,
+            }
         }
-        sum
+        if local.asks.is_some() {
+            local.start = self.surface.departure(self.surface.normal, self.travelled) + self.lift;
+        }
+        local
+    }
+
+    /// Sum of the ambient, diffuse and highlight terms, once the lamps were asked.
+    #[inline]
+    pub(super) fn finish<O: Observer>(&self, local: &Local, observer: &mut O) -> Rgb {
+        let Local { sum, asks, factor, lamps, .. } = *local;
+        if asks.is_none() {
+            return sum;
+        }
+        if O::WATCHES {
+            // The last of the terms of light is the one that asked.
+            if let Some(effect) = self.material.effects.iter().take_while(|effect| effect.is_light()).last() {
+                observer.term(effect, factor, lamps);
+            }
+        }
+        sum + factor * lamps
     }
 
     fn color(&self, footprint: impl FnOnce() -> Footprint) -> Rgb {
@@ -123,81 +127,71 @@ impl<'a> Point<'a> {
         }
     }
 
-    /// Sum of a term over the lights that reach the point; `weight` is what it is multiplied by in the pixel.
-    fn over_lights<O: Observer>(
-        &self,
-        weight: Rgb,
-        interior: &Interior,
-        counts: &mut Counts,
-        observer: &mut O,
-        term: impl Fn(&Arriving) -> Rgb,
-    ) -> Rgb {
-        let start = self.surface.departure(self.surface.normal, self.travelled) + self.lift;
-        let mut sum = Rgb::ZERO;
-        let Lights { lamps, points, sampling, .. } = &*self.snapshot.lights;
-        for (((lamp, point), sampling), n) in lamps.iter().zip(points).zip(sampling).zip(0..) {
-            let light = match (point, *sampling) {
-                (Some(lamp), _) => self.look(n, lamp, start, DVec2::ZERO, interior, counts, observer, &term),
-                (None, None) => self.look(n, &**lamp, start, DVec2::ZERO, interior, counts, observer, &term),
-                (None, Some(sampling)) => {
-                    let error = lamp_error(self.snapshot, weight).unwrap_or(sampling.error);
-                    let one = |sample| self.look(n, &**lamp, start, sample, interior, counts, observer, &term);
-                    let (mean, reached) = mean_over(Sampling { error, ..sampling }, self.key.child(n), one);
-                    counts.undersampled += u64::from(!reached);
-                    Some(mean)
-                }
-            };
-            let light = light.unwrap_or(Rgb::ZERO);
-            sum += light;
-            observer.lamp(n, light);
+    /// The term that a light adds.
+    #[inline(always)]
+    fn term(&self, asks: &Effect, light: &Arriving) -> Rgb {
+        match *asks {
+            Effect::Glossy { diffuse, highlight, exponent } => {
+                // Where the mirrored light points away from the viewer there is no highlight, whatever the exponent.
+                let mirrored = optics::reflect(-light.direction, self.surface.shading_normal);
+                let aligned = -mirrored.dot(self.direction);
+                let shine = if aligned > 0.0 { math::pow(aligned, exponent) } else { 0.0 };
+                (diffuse * light.cosine + highlight * shine) * light.intensity
+            }
+            _ => light.intensity * light.cosine,
         }
-        sum
     }
 
-    /// A term of one look at a lamp; none if nothing of it arrives.
+    /// What would arrive of a light at the point, if it shines on this side and nothing is in the way.
     #[inline(always)]
-    fn look<L: Lamp + ?Sized, O: Observer>(
-        &self,
-        number: u32,
-        lamp: &L,
-        start: DVec3,
-        sample: DVec2,
-        interior: &Interior,
-        counts: &mut Counts,
-        observer: &mut O,
-        term: &impl Fn(&Arriving) -> Rgb,
-    ) -> Option<Rgb> {
-        let light = lamp.illuminate(start, sample);
-        let arriving = light.as_ref().and_then(|light| self.arriving(start, light, interior, counts));
-        if O::WATCHES {
-            let visible = arriving.as_ref().map(|arriving| arriving.visible);
-            observer.looked(&Look { lamp: number, from: start, light: light.as_ref(), visible });
-        }
-        arriving.filter(|arriving| arriving.visible != Rgb::ZERO).map(|arriving| term(&arriving))
-    }
-
-    /// What arrives of a light at the point, if it shines on this side.
-    #[inline(always)]
-    fn arriving(
-        &self,
-        start: DVec3,
-        light: &Illumination,
-        interior: &Interior,
-        counts: &mut Counts,
-    ) -> Option<Arriving> {
+    fn facing(&self, light: &Illumination) -> Option<Arriving> {
         let length = light.to_light.length();
         let direction = light.to_light * (1.0 / length);
         let cosine = self.surface.shading_normal.dot(direction);
         if cosine <= 0.0 || cosine.is_nan() {
             return None;
         }
-        let visible = if light.shadows && self.snapshot.settings.shadows {
-            let ray = Ray { origin: start, direction: light.to_light };
-            self.visibility(ray, length, light.distance, interior, counts)
-        } else {
-            Rgb::ONE
+        Some(Arriving { direction, length, cosine, intensity: light.intensity, visible: Rgb::ONE })
+    }
+
+    /// Mean of the term of a lamp with an area; `weight` is what it is multiplied by in the pixel.
+    fn sampled<O: Observer>(
+        &self,
+        number: u32,
+        sampling: Sampling,
+        (local, asks): (&Local, &Effect),
+        weight: Rgb,
+        interior: &Interior,
+        counts: &mut Counts,
+        observer: &mut O,
+    ) -> Rgb {
+        let lamp = &*self.snapshot.lights.lamps[number as usize];
+        let weight = if matches!(asks, Effect::Diffuse(_)) { weight * local.factor } else { weight };
+        let error = lamp_error(self.snapshot, weight).unwrap_or(sampling.error);
+        let one = |sample| {
+            let light = lamp.illuminate(local.start, sample);
+            let arriving = light.as_ref().and_then(|light| {
+                let mut arriving = self.facing(light)?;
+                if self.casts(light) {
+                    let ray = Ray { origin: local.start, direction: light.to_light };
+                    arriving.weaken(self.visibility(ray, arriving.length, light.distance, interior, counts));
+                }
+                Some(arriving)
+            });
+            if O::WATCHES {
+                let visible = arriving.as_ref().map(|arriving| arriving.visible);
+                observer.looked(&Look { lamp: number, from: local.start, light: light.as_ref(), visible });
+            }
+            arriving.filter(|arriving| arriving.visible != Rgb::ZERO).map(|arriving| self.term(asks, &arriving))
         };
-        Some(Arriving { direction, cosine, intensity: light.intensity * visible, visible })
+        let (mean, reached) = mean_over(Sampling { error, ..sampling }, self.key.child(number), one);
+        counts.undersampled += u64::from(!reached);
+        mean
+    }
+
+    #[inline(always)]
+    fn casts(&self, light: &Illumination) -> bool {
+        light.shadows && self.snapshot.settings.shadows
     }
 
     /// Share of a light that gets through to the start of `ray`, whose direction is so long, and which ends at the
@@ -331,12 +325,166 @@ fn mean_over(sampling: Sampling, key: Key, mut one: impl FnMut(DVec2) -> Option<
 struct Arriving {
     /// Unit, toward the light.
     direction: DVec3,
+    /// Of the way to the light as its lamp tells it.
+    length: f64,
     /// Of the angle to the shading normal; more than zero.
     cosine: f64,
     /// What arrives after shadows, linear RGB.
     intensity: Rgb,
     /// The share that got through.
     visible: Rgb,
+}
+
+impl Arriving {
+    #[inline(always)]
+    fn weaken(&mut self, visible: Rgb) {
+        self.intensity *= visible;
+        self.visible = visible;
+    }
+}
+
+/// The light at a point as far as it is known.
+pub(super) struct Local {
+    /// Sum of the terms that are complete.
+    sum: Rgb,
+    /// The term that is asked of lamps, in its colour but for `factor`.
+    asks: Option<Effect>,
+    /// What the sum over the lamps is multiplied by.
+    factor: Rgb,
+    /// Where rays to lights start.
+    start: DVec3,
+    /// Sum over the lamps asked so far.
+    lamps: Rgb,
+}
+
+/// Rays toward a lamp from several points, which are traced together.
+#[derive(Default)]
+pub(super) struct Shadows {
+    packet: Packet,
+    ends: Ends,
+    /// What the lamp gives to each point, and what of it arrives.
+    lights: Vec<(Option<Illumination>, Option<Arriving>)>,
+    /// The points of the rays.
+    points: Vec<usize>,
+}
+
+struct Ends(PerRay);
+
+impl Default for Ends {
+    fn default() -> Self {
+        Self([0.0; PACKET])
+    }
+}
+
+/// What surrounds a point to be lit: its weight in the pixel, and the clear bodies that the ray came through.
+pub(super) type Around<'a> = (Rgb, &'a Interior);
+
+/// Asks all lamps for the light at some points, at most [`PACKET`]; each point adds them up in their order.
+pub(super) fn ask_lamps<'a, O: Observer>(
+    snapshot: &Snapshot,
+    points: &[Point<'_>],
+    locals: &mut [Local],
+    around: impl Fn(usize) -> Around<'a>,
+    shadows: &mut Shadows,
+    counts: &mut Counts,
+    observer: &mut O,
+) {
+    if locals.iter().all(|local| local.asks.is_none()) {
+        return;
+    }
+    let Lights { lamps, points: plain, sampling, .. } = &*snapshot.lights;
+    for (((lamp, plain), sampling), number) in lamps.iter().zip(plain).zip(sampling).zip(0..) {
+        match (plain, *sampling) {
+            (Some(lamp), _) => shadows.look(lamp, points, locals, &around, counts),
+            (None, None) => shadows.look(&**lamp, points, locals, &around, counts),
+            (None, Some(sampling)) => {
+                for (i, (point, local)) in points.iter().zip(&mut *locals).enumerate() {
+                    if let Some(asks) = local.asks {
+                        let (weight, interior) = around(i);
+                        let asks = (&*local, &asks);
+                        let light = point.sampled(number, sampling, asks, weight, interior, counts, observer);
+                        local.lamps += light;
+                        observer.lamp(number, light);
+                    }
+                }
+                continue;
+            }
+        }
+        for ((point, local), (light, arriving)) in points.iter().zip(&mut *locals).zip(&shadows.lights) {
+            let Some(asks) = &local.asks else { continue };
+            if O::WATCHES {
+                let visible = arriving.as_ref().map(|arriving| arriving.visible);
+                observer.looked(&Look { lamp: number, from: local.start, light: light.as_ref(), visible });
+            }
+            let light = match arriving {
+                Some(arriving) if arriving.visible != Rgb::ZERO => point.term(asks, arriving),
+                _ => Rgb::ZERO,
+            };
+            local.lamps += light;
+            observer.lamp(number, light);
+        }
+    }
+}
+
+impl Shadows {
+    /// Asks a lamp without area for the light at some points.
+    #[inline(always)]
+    fn look<'a, L: Lamp + ?Sized>(
+        &mut self,
+        lamp: &L,
+        points: &[Point<'_>],
+        locals: &[Local],
+        around: &impl Fn(usize) -> Around<'a>,
+        counts: &mut Counts,
+    ) {
+        self.packet.clear();
+        self.points.clear();
+        self.lights.clear();
+        for (i, (point, local)) in points.iter().zip(locals).enumerate() {
+            if local.asks.is_none() {
+                self.lights.push((None, None));
+                continue;
+            }
+            let light = lamp.illuminate(local.start, DVec2::ZERO);
+            let arriving = light.as_ref().and_then(|light| point.facing(light));
+            if let (Some(light), Some(Arriving { length, .. })) = (&light, &arriving)
+                && point.casts(light)
+            {
+                let ray = Ray { origin: local.start, direction: light.to_light };
+                self.ends.0[self.packet.push(&ray)] = short_of_the_light(&ray, *length, light.distance);
+                self.points.push(i);
+            }
+            self.lights.push((light, arriving));
+        }
+        let Some(Point { snapshot, methods, .. }) = points.first() else { return };
+        let mut cost = Cost::default();
+        let Snapshot { geometry, parted, .. } = snapshot;
+        let opaque = parted.as_ref().map_or(&**geometry, |parted| &parted.opaque);
+        let all = self.packet.all();
+        counts.shadow += self.packet.len() as u64;
+        let blocked = opaque.blocked_packet(&self.packet, all, &self.ends.0, methods, &mut cost);
+        for n in each(blocked) {
+            if let (_, Some(arriving)) = &mut self.lights[self.points[n]] {
+                arriving.weaken(Rgb::ZERO);
+            }
+        }
+        if let Some(parted) = parted {
+            let clear = &parted.clear;
+            let met = clear.blocked_packet(&self.packet, all & !blocked, &self.ends.0, methods, &mut cost);
+            for n in each(all & !blocked) {
+                let i = self.points[n];
+                let (_, interior) = around(i);
+                if met >> n & 1 == 0 && interior.is_empty() {
+                    continue;
+                }
+                if let (Some(light), Some(arriving)) = &mut self.lights[i] {
+                    let (ray, end) = (self.packet.ray(n), self.ends.0[n]);
+                    arriving.weaken(points[i].through_clear(clear, ray, end, light.distance, interior, counts));
+                }
+            }
+        }
+        counts.add(cost);
+    }
 }
 
 /// Where the way to a light at `distance` ends: before the rounding error of a surface that the light stands on, which

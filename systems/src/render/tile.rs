@@ -18,7 +18,8 @@ impl Stop {
         Self::default()
     }
 
-    /// Asks the render to stop; it does so within a pixel, and leaves the row undrawn.
+    /// Asks the render to stop; it does so within a square of at most eight by eight pixels, and leaves its rows of the
+    /// tile undrawn.
     pub fn stop(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -155,22 +156,31 @@ fn draw(snapshot: &Snapshot, region: Region, options: &Options<'_>) -> (Tile, Co
     let mut counts = Counts::default();
     let observer = &mut ();
     let mut drawing = Pixels::new(snapshot, &options.methods, &mut counts, observer);
+    let (edge, width) = (drawing.edge(), region.width as usize);
+    let mut lights = vec![];
     let mut rows = 0;
-    'rows: for (y, row) in pixels.chunks_mut(region.width as usize).enumerate() {
-        for (x, out) in row.iter_mut().enumerate() {
+    'bands: for (band, pixels) in pixels.chunks_mut(width * edge as usize).enumerate() {
+        let height = (pixels.len() / width) as u32;
+        for x in (0..region.width).step_by(edge as usize) {
             // A pixel may take thousands of rays, so that a row would be long to wait for.
             if options.stop.is_stopped() {
-                row.fill([0.0; 3]);
-                break 'rows;
+                pixels.fill([0.0; 3]);
+                break 'bands;
             }
-            let light = drawing.light(region.x + x as u32, region.y + y as u32).as_vec3();
-            if light.is_finite() {
-                *out = light.to_array();
-            } else {
-                drawing.counts.not_finite += 1;
+            let part =
+                Region { x: region.x + x, y: region.y + band as u32 * edge, width: edge.min(region.width - x), height };
+            drawing.lights(part, &mut lights);
+            for (i, light) in lights.iter().enumerate() {
+                let light = light.as_vec3();
+                if light.is_finite() {
+                    let (row, column) = (i / part.width as usize, i % part.width as usize);
+                    pixels[row * width + x as usize + column] = light.to_array();
+                } else {
+                    drawing.counts.not_finite += 1;
+                }
             }
         }
-        rows += 1;
+        rows += height;
     }
     (Tile { region, pixels }, counts, rows)
 }

@@ -8,10 +8,10 @@ use super::{
     interior::{self, Interiors, Sides},
     observe::{Added, Dropped, Forward, Observer, Traced, Way},
     optics,
-    shade::{Point, straight_eta},
+    shade::{Local, Point, Shadows, ask_lamps, straight_eta},
 };
 use crate::{
-    accelerate::Intersection,
+    accelerate::{Bests, Intersection, Nearest},
     snapshot::{Effect, Snapshot},
 };
 use glam::DVec3;
@@ -19,6 +19,7 @@ use smallvec::SmallVec;
 use snell_components::{
     color::Rgb,
     method::Methods,
+    packet::Packet,
     primitive::{Cost, Surface},
     space::Ray,
 };
@@ -67,51 +68,174 @@ pub(super) struct Brought {
     pub cut_bound: f64,
 }
 
-/// The light that comes back along a ray.
+/// A ray through the picture.
+pub(super) struct Start<B> {
+    pub ray: Ray,
+    pub beside: B,
+    pub key: Key,
+}
+
+/// The tree of rays that starts with one through the picture, as far as it was walked.
 ///
-/// The tree of rays is walked with a stack of its own, the mirrored branch of a surface before the transmitted one, and
-/// every contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
+/// It is walked with a stack of its own, the mirrored branch of a surface before the transmitted one, and every
+/// contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
+struct Tree<'a, B> {
+    sum: Rgb,
+    /// The object that the first ray met.
+    first: Option<u32>,
+    cut: Cut<'a>,
+    interiors: Interiors<'a>,
+    /// The top of the stack is kept apart: most rays have one follower at most.
+    top: Option<Pending<B>>,
+    below: Vec<Pending<B>>,
+}
+
+/// A ray at the surface it met.
+struct Met<'a, B: Beside> {
+    /// Which tree it belongs to.
+    tree: usize,
+    pending: Pending<B>,
+    met: Nearest,
+    /// What lies on both sides; none within if the surface bounds no medium.
+    sides: Option<Sides<'a>>,
+    bounds_medium: bool,
+    beside: B::Met,
+}
+
+/// Room for the work on some rays at once, used again and again.
+#[derive(Default)]
+pub(super) struct Room {
+    packet: Packet,
+    bests: Bests,
+    shadows: Shadows,
+}
+
+/// The light that comes back along some rays, at most as many as a packet holds.
+///
+/// Their trees are walked side by side: at every step one ray of each, all of them together, and then the rays from
+/// where they met something to each lamp. No tree knows of the others, so each comes about as it would alone.
 pub(super) fn light_along<B: Beside, O: Observer>(
     snapshot: &Snapshot,
-    ray: Ray,
-    beside: B,
-    key: Key,
+    starts: impl Iterator<Item = Start<B>>,
     methods: &Methods,
+    room: &mut Room,
     counts: &mut Counts,
     observer: &mut O,
-) -> Brought {
-    let Snapshot { settings, materials, .. } = snapshot;
-    let mut sum = Rgb::ZERO;
-    let mut first = None;
-    let mut cut = Cut::of(snapshot);
-    let mut interiors = Interiors::new(&snapshot.inside);
-    let (way, weight) = (Way::Camera, Rgb::ONE);
-    observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
-    // The top of the stack is kept apart: most rays have one follower at most.
-    let mut top = Some(Pending { ray, beside, weight, depth: 0, inside: 0, wavelength: None, key });
-    let mut below: SmallVec<[Pending<B>; 8]> = SmallVec::new();
+    brought: &mut Vec<Brought>,
+) {
+    let count = starts.size_hint().0;
+    let mut trees: SmallVec<[Tree<'_, B>; 1]> = SmallVec::with_capacity(count);
+    for Start { ray, beside, key } in starts {
+        let (way, weight) = (Way::Camera, Rgb::ONE);
+        observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
+        trees.push(Tree {
+            sum: Rgb::ZERO,
+            first: None,
+            cut: Cut::of(snapshot),
+            interiors: Interiors::new(&snapshot.inside),
+            top: Some(Pending { ray, beside, weight, depth: 0, inside: 0, wavelength: None, key }),
+            below: vec![],
+        });
+    }
+    let mut pending: SmallVec<[(usize, Pending<B>); 1]> = SmallVec::with_capacity(count);
+    let mut met: SmallVec<[Met<'_, B>; 1]> = SmallVec::with_capacity(count);
+    let mut points: SmallVec<[Point<'_>; 1]> = SmallVec::with_capacity(count);
+    let mut locals: SmallVec<[Local; 1]> = SmallVec::with_capacity(count);
     loop {
-        let next = match top.take() {
-            None => below.pop(),
-            next => next,
+        pending.clear();
+        pending.extend(trees.iter_mut().enumerate().filter_map(|(n, tree)| Some((n, tree.next()?))));
+        if pending.is_empty() {
+            break;
+        }
+        search(snapshot, &pending, methods, room, counts);
+        met.clear();
+        points.clear();
+        locals.clear();
+        for (i, (n, pending)) in pending.drain(..).enumerate() {
+            let nearest = room.bests.nearest(i);
+            if let Some((at, point)) = trees[n].arrive(n, pending, nearest, snapshot, methods, observer) {
+                locals.push(point.begin(|| B::footprint(&at.beside, &point.surface), observer));
+                met.push(at);
+                points.push(point);
+            }
+        }
+        let around = |i: usize| {
+            let Met { tree, pending: Pending { weight, inside, .. }, .. } = met[i];
+            (weight, trees[tree].interiors.get(inside))
         };
-        let Some(Pending { ray, beside, mut weight, depth, inside, wavelength, key }) = next else { break };
-        let mut cost = Cost::default();
-        let met = snapshot.geometry.nearest(&ray, f64::INFINITY, methods, &mut cost);
-        counts.add(cost);
-        let interior = interiors.get(inside);
+        ask_lamps(snapshot, &points, &mut locals, around, &mut room.shadows, counts, observer);
+        for ((at, point), local) in met.iter().zip(&points).zip(&locals) {
+            let local = point.finish(local, observer);
+            trees[at.tree].go_on(at, point, local, snapshot, counts, observer);
+        }
+    }
+    brought.extend(trees.iter().map(|tree| {
+        let cut_bound = tree.cut.bound();
+        counts.cut_bound = counts.cut_bound.max(cut_bound);
+        Brought { light: tree.sum, object: tree.first, cut_bound }
+    }));
+}
+
+/// Finds what some rays meet first.
+fn search<B>(
+    snapshot: &Snapshot,
+    pending: &[(usize, Pending<B>)],
+    methods: &Methods,
+    room: &mut Room,
+    counts: &mut Counts,
+) {
+    let Room { packet, bests, .. } = room;
+    let mut cost = Cost::default();
+    if let [(_, Pending { ray, .. })] = pending {
+        bests.set(0, snapshot.geometry.nearest(ray, f64::INFINITY, methods, &mut cost));
+    } else {
+        packet.clear();
+        for (_, Pending { ray, .. }) in pending {
+            packet.push(ray);
+        }
+        bests.begin(packet.len(), f64::INFINITY);
+        snapshot.geometry.nearest_packet(packet, methods, bests, &mut cost);
+    }
+    counts.add(cost);
+}
+
+impl<'a, B: Beside> Tree<'a, B> {
+    /// The ray to be traced next.
+    #[inline(always)]
+    fn next(&mut self) -> Option<Pending<B>> {
+        match self.top.take() {
+            None => self.below.pop(),
+            next => next,
+        }
+    }
+
+    /// Takes a ray to what it meets; the surface there, if it is to be shaded.
+    #[inline(always)]
+    fn arrive<'p, O: Observer>(
+        &mut self,
+        tree: usize,
+        mut pending: Pending<B>,
+        met: Option<Nearest>,
+        snapshot: &'p Snapshot,
+        methods: &'p Methods,
+        observer: &mut O,
+    ) -> Option<(Met<'p, B>, Point<'p>)> {
+        let Snapshot { settings, materials, .. } = snapshot;
+        let Pending { ray, beside, depth, inside, wavelength, key, .. } = pending;
+        let interior = self.interiors.get(inside);
         if !interior.is_empty() {
             let travelled = met.map_or(f64::INFINITY, |met| met.hit.t);
-            weight *= interior::transmittance(interior.medium(materials), travelled);
+            pending.weight *= interior::transmittance(interior.medium(materials), travelled);
         }
+        let weight = pending.weight;
         if O::WATCHES {
             let surface = |met| Intersection::new(met, snapshot.geometry.surface(met, &ray, methods));
             observer.traced(&Traced { met: met.as_ref().map(surface).as_ref(), weight });
         }
         let Some(met) = met else {
-            sum += weight * settings.background;
+            self.sum += weight * settings.background;
             observer.added(Added::Background, weight, settings.background);
-            continue;
+            return None;
         };
         let point = Point::new(snapshot, methods, &ray, &met, key);
         let sides = materials.medium(met.object).map(|_| interior.sides(met.object, point.entering, materials));
@@ -119,22 +243,37 @@ pub(super) fn light_along<B: Beside, O: Observer>(
             // The surface lies inside a body that counts before its own: it is not there.
             let ray = Ray { origin: point.surface.departure(ray.direction, met.hit.t), direction: ray.direction };
             let across = interior.across(met.object, point.entering);
-            let inside = interiors.keep(across);
+            let inside = self.interiors.keep(across);
             let (way, share) = (Way::Onward, Rgb::ONE);
             observer.put_forward(&Forward { way, ray: &ray, share, weight, wavelength });
-            top = Some(Pending { ray, beside, weight, depth, inside, wavelength, key });
-            continue;
+            self.top = Some(Pending { ray, beside, weight, depth, inside, wavelength, key });
+            return None;
         }
         if depth == 0 {
-            first = Some(met.object);
+            self.first = Some(met.object);
         }
         let beside = beside.meet(&point, &met);
-        let local = point.local(weight, interior, || B::footprint(&beside, &point.surface), counts, observer);
-        sum += weight * local;
-        observer.added(Added::Surface, weight, local);
+        let bounds_medium = sides.is_some();
+        Some((Met { tree, pending, met, sides: sides.flatten(), bounds_medium, beside }, point))
+    }
 
+    /// Adds the light at a surface, and puts the rays forward that go on from there.
+    #[inline(always)]
+    fn go_on<O: Observer>(
+        &mut self,
+        at: &Met<'_, B>,
+        point: &Point<'_>,
+        local: Rgb,
+        snapshot: &Snapshot,
+        counts: &mut Counts,
+        observer: &mut O,
+    ) {
+        let settings = &snapshot.settings;
+        let Met { met, pending: Pending { weight, depth, inside, wavelength, key, .. }, .. } = *at;
+        self.sum += weight * local;
+        observer.added(Added::Surface, weight, local);
         if !point.material.goes_on() {
-            continue;
+            return;
         }
         let (one, several);
         let branches: &[Branch] = match point.material.mirror_alone() {
@@ -143,7 +282,7 @@ pub(super) fn light_along<B: Beside, O: Observer>(
                 &one
             }
             None => {
-                several = point.branches(sides.flatten(), wavelength);
+                several = point.branches(at.sides, wavelength);
                 &several
             }
         };
@@ -157,10 +296,10 @@ pub(super) fn light_along<B: Beside, O: Observer>(
             if depth >= settings.depth {
                 counts.too_deep += 1;
                 let light = beyond_depth(settings.background);
-                sum += weight * light;
+                self.sum += weight * light;
                 observer.dropped(&forward, Dropped::TooDeep);
                 observer.added(Added::BeyondDepth, weight, light);
-            } else if cut.drops(weight, settings.depth - depth - 1) {
+            } else if self.cut.drops(weight, settings.depth - depth - 1) {
                 counts.cut += 1;
                 observer.dropped(&forward, Dropped::Cut);
             } else {
@@ -171,28 +310,25 @@ pub(super) fn light_along<B: Beside, O: Observer>(
                 } else {
                     counts.transmitted += 1;
                     match beyond {
-                        _ if sides.is_none() => inside,
+                        _ if !at.bounds_medium => inside,
                         // The same for all lines of a spectrum.
                         Some(beyond) => beyond,
                         None => {
-                            let across = interiors.get(inside).across(met.object, point.entering);
-                            *beyond.insert(interiors.keep(across))
+                            let across = self.interiors.get(inside).across(met.object, point.entering);
+                            *beyond.insert(self.interiors.keep(across))
                         }
                     }
                 };
                 // Lights count from zero up, branches from the top down.
                 let key = key.child(u32::MAX - n as u32);
-                let beside = B::go_on(&beside, &point, branch);
+                let beside = B::go_on(&at.beside, point, branch);
                 let next = Pending { ray, beside, weight, depth: depth + 1, inside, wavelength, key };
-                if let Some(before) = top.replace(next) {
-                    below.push(before);
+                if let Some(before) = self.top.replace(next) {
+                    self.below.push(before);
                 }
             }
         }
     }
-    let cut_bound = cut.bound();
-    counts.cut_bound = counts.cut_bound.max(cut_bound);
-    Brought { light: sum, object: first, cut_bound }
 }
 
 /// What a ray beyond the depth limit is taken to bring: grey, with the mean brightness of the background's components.

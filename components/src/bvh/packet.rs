@@ -1,0 +1,266 @@
+//! Walking the tree along many rays at once.
+//!
+//! Every node and leaf is visited once, with the rays that come to it: it is read once, and the tests of the rays do not
+//! wait for one another. Where the walk comes first is decided by the nearest of the rays.
+
+use super::{
+    Blocks, Bvh, Child, Node, WIDTH,
+    box_ray::{BoxRay, Planes, above, is_beyond_boxes},
+    traverse::Leaf,
+};
+use crate::{
+    lanes::{self, Job, Lanes, Room, Stack},
+    packet::{self, Mask, PACKET, Packet, PerRay},
+    primitive::Cost,
+    space::Ray,
+};
+use core::ops::Range;
+
+/// Distances beyond which nothing matters to each ray.
+pub(crate) type Limits = [f32; PACKET];
+
+/// What is done with the leaves along rays.
+pub(crate) trait PacketVisitor {
+    /// Whether a ray ends at the first thing found, so that the nearest need not come first.
+    const ANY: bool;
+
+    /// The limits of all rays, each from [`above`](super::above).
+    fn limits(&self) -> &Limits;
+
+    /// The rays that are not at their end yet.
+    fn alive(&self) -> Mask;
+
+    /// Tests what a leaf holds with the rays that come to it.
+    ///
+    /// To be `#[inline(always)]`: see [`Job::run`].
+    fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, rays: Mask, cost: &mut Cost);
+}
+
+/// The valid rays of a packet whose distances to boxes are within the range of `f32`: the others must go alone.
+#[must_use]
+pub fn fits_boxes(packet: &Packet) -> Mask {
+    let beyond = packet::each(packet.valid()).filter(|&i| is_beyond_boxes(packet.ray(i).origin));
+    packet.valid() & !beyond.fold(0, |beyond, i| beyond | 1 << i)
+}
+
+/// Rays prepared for box tests.
+pub(crate) struct BoxRays([Planes; PACKET]);
+
+impl BoxRays {
+    #[inline(always)]
+    pub(crate) fn new() -> Self {
+        Self([Planes::NONE; PACKET])
+    }
+
+    /// Prepares one ray, which must not start [beyond boxes](super::is_beyond_boxes).
+    #[inline(always)]
+    pub(crate) fn set<L: Lanes>(&mut self, lanes: L, i: usize, ray: &Ray) {
+        self.0[i] = Planes::new(lanes, ray);
+    }
+}
+
+/// Two numbers for each child put aside: see [`super::Bvh::MAX_DEPTH`].
+const ROOM: usize = 2 * ((WIDTH - 1) * Bvh::MAX_DEPTH + 1);
+
+/// The rays that reach beyond a distance.
+#[inline(always)]
+fn reaching<L: Lanes>(l: L, limits: &Limits, distance: f32, rays: Mask) -> Mask {
+    let distance = l.f_splat(distance);
+    let mut reach = 0;
+    for (group, limits) in limits.as_chunks().0.iter().enumerate() {
+        if rays >> (8 * group) & 0xff != 0 {
+            reach |= Mask::from(l.f_le(distance, l.f_load(limits))) << (8 * group);
+        }
+    }
+    rays & reach
+}
+
+/// Visits the leaves along the rays, until nothing is left within their limits.
+#[inline(always)]
+fn walk<L: Lanes, V: PacketVisitor>(
+    lanes: L,
+    nodes: &[Node],
+    boxes: &BoxRays,
+    rays: Mask,
+    cost: &mut Cost,
+    visitor: &mut V,
+) {
+    let l = lanes;
+    if nodes.is_empty() || rays == 0 {
+        return;
+    }
+    let mut room = Room::<ROOM>::new();
+    let mut stack = Stack::new(&mut room);
+    let (mut child, mut rays) = (Child::node(0), rays);
+    loop {
+        if child.is_leaf() {
+            visitor.visit(lanes, child.leaf_run(), rays, cost);
+        } else {
+            let node = &nodes[child.0 as usize];
+            cost.nodes += u64::from(rays.count_ones());
+            // Bytes of `entering` are children, their bits eight rays.
+            let mut entering = [0u64; PACKET / 8];
+            let mut distances = l.f_splat(f32::INFINITY);
+            let mut entered = 0;
+            let limits = visitor.limits();
+            for (group, entering) in entering.iter_mut().enumerate() {
+                let mut rest = (rays >> (8 * group)) as u32 & 0xff;
+                while rest != 0 {
+                    let bit = rest.trailing_zeros();
+                    rest &= rest - 1;
+                    let i = 8 * group + bit as usize;
+                    let (near, far) = BoxRay::of(l, &boxes.0[i]).distances(l, node, limits[i]);
+                    let (least, mask) = l.f_least_of_le(near, far, distances);
+                    distances = least;
+                    entered |= mask;
+                    *entering |= l.spread(mask) << bit;
+                }
+            }
+            let mut near = [0.0; WIDTH];
+            l.f_store(distances, &mut near);
+            let base = stack.len();
+            while entered != 0 {
+                let lane = entered.trailing_zeros() as usize % WIDTH;
+                entered &= entered - 1;
+                let mut come = 0;
+                for (group, entering) in entering.iter().enumerate() {
+                    come |= (entering >> (8 * lane) & 0xff) << (8 * group);
+                }
+                let key = u64::from(near[lane].to_bits()) << 32 | u64::from(node.child[lane].0);
+                stack.push(come);
+                stack.push(key);
+                if !V::ANY {
+                    // Farthest first: the last is next.
+                    let new = stack.since(base);
+                    let mut at = new.len() - 2;
+                    while at > 0 && new[at - 1] < key {
+                        (new[at], new[at + 1]) = (new[at - 2], new[at - 1]);
+                        at -= 2;
+                    }
+                    (new[at], new[at + 1]) = (come, key);
+                }
+            }
+        }
+        loop {
+            let (Some(key), Some(come)) = (stack.pop(), stack.pop()) else { return };
+            rays = come & visitor.alive();
+            if !V::ANY && rays != 0 {
+                rays = reaching(l, visitor.limits(), f32::from_bits((key >> 32) as u32), rays);
+            }
+            if rays != 0 {
+                child = Child(key as u32);
+                break;
+            }
+        }
+    }
+}
+
+impl Blocks {
+    /// Visits the blocks along some rays, until nothing is left within their limits.
+    #[inline(always)]
+    pub(crate) fn walk_packet<L: Lanes>(
+        &self,
+        lanes: L,
+        boxes: &BoxRays,
+        rays: Mask,
+        cost: &mut Cost,
+        visitor: &mut impl PacketVisitor,
+    ) {
+        walk(lanes, &self.nodes, boxes, rays, cost, visitor);
+    }
+}
+
+/// The walk of a [`Bvh`] as a job.
+struct Walk<'a, F, const ANY: bool> {
+    tree: &'a Bvh,
+    packet: &'a Packet,
+    rays: Mask,
+    runs: Runs<F, ANY>,
+    cost: &'a mut Cost,
+}
+
+/// Leaves as runs of [`Bvh::order`].
+struct Runs<F, const ANY: bool> {
+    leaf: F,
+    limits: Limits,
+    alive: Mask,
+}
+
+impl<F: FnMut(Range<usize>, Mask, &mut Limits, &mut Cost) -> Mask, const ANY: bool> PacketVisitor for Runs<F, ANY> {
+    const ANY: bool = ANY;
+
+    #[inline(always)]
+    fn limits(&self) -> &Limits {
+        &self.limits
+    }
+
+    #[inline(always)]
+    fn alive(&self) -> Mask {
+        self.alive
+    }
+
+    #[inline(always)]
+    fn visit<L: Lanes>(&mut self, _: L, leaf: Leaf, rays: Mask, cost: &mut Cost) {
+        self.alive &= !(self.leaf)(leaf.first..leaf.first + leaf.len, rays, &mut self.limits, cost);
+    }
+}
+
+impl<F: FnMut(Range<usize>, Mask, &mut Limits, &mut Cost) -> Mask, const ANY: bool> Job for Walk<'_, F, ANY> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(mut self, lanes: L) {
+        let mut boxes = BoxRays::new();
+        for i in packet::each(self.rays) {
+            boxes.set(lanes, i, &self.packet.ray(i));
+        }
+        walk(lanes, &self.tree.nodes, &boxes, self.rays, self.cost, &mut self.runs);
+    }
+}
+
+impl Bvh {
+    /// [`Bvh::walk`] along some rays of a packet, which must be [fit for boxes](fits_boxes).
+    ///
+    /// `leaf` gets a run of [`Bvh::order`] and the rays that come to it, and lowers the distances beyond which nothing
+    /// matters to each.
+    pub fn walk_packet(
+        &self,
+        packet: &Packet,
+        rays: Mask,
+        limits: &mut PerRay,
+        cost: &mut Cost,
+        mut leaf: impl FnMut(Range<usize>, Mask, &mut PerRay, &mut Cost),
+    ) {
+        let rounded = limits.map(above);
+        let leaf = |run: Range<usize>, rays: Mask, rounded: &mut Limits, cost: &mut Cost| {
+            leaf(run, rays, limits, cost);
+            for i in packet::each(rays) {
+                rounded[i] = above(limits[i]);
+            }
+            0
+        };
+        let runs = Runs { leaf, limits: rounded, alive: rays };
+        lanes::run(Walk::<_, false> { tree: self, packet, rays, runs, cost });
+    }
+
+    /// [`Bvh::any`] along some rays of a packet, which must be [fit for boxes](fits_boxes): which of them `leaf` tells
+    /// to be blocked.
+    pub fn any_packet(
+        &self,
+        packet: &Packet,
+        rays: Mask,
+        limits: &PerRay,
+        cost: &mut Cost,
+        mut leaf: impl FnMut(Range<usize>, Mask, &mut Cost) -> Mask,
+    ) -> Mask {
+        let mut blocked = 0;
+        let leaf = |run: Range<usize>, rays: Mask, _: &mut Limits, cost: &mut Cost| {
+            let more = leaf(run, rays, cost);
+            blocked |= more;
+            more
+        };
+        let runs = Runs { leaf, limits: limits.map(above), alive: rays };
+        lanes::run(Walk::<_, true> { tree: self, packet, rays, runs, cost });
+        blocked
+    }
+}
