@@ -151,7 +151,8 @@ impl<'a> Point<'a> {
         if cosine <= 0.0 || cosine.is_nan() {
             return None;
         }
-        Some(Arriving { direction, length, cosine, intensity: light.intensity, visible: Rgb::ONE })
+        let Illumination { distance, intensity, .. } = *light;
+        Some(Arriving { direction, length, distance, cosine, intensity, visible: Rgb::ONE })
     }
 
     /// Mean of the term of a lamp with an area; `weight` is what it is multiplied by in the pixel.
@@ -327,6 +328,8 @@ struct Arriving {
     direction: DVec3,
     /// Of the way to the light as its lamp tells it.
     length: f64,
+    /// Where the light stands on that way.
+    distance: f64,
     /// Of the angle to the shading normal; more than zero.
     cosine: f64,
     /// What arrives after shadows, linear RGB.
@@ -362,8 +365,8 @@ pub(super) struct Local {
 pub(super) struct Shadows {
     packet: Packet,
     ends: Ends,
-    /// What the lamp gives to each point, and what of it arrives.
-    lights: Vec<(Option<Illumination>, Option<Arriving>)>,
+    /// What of the lamp arrives at each point.
+    lights: Vec<Option<Arriving>>,
     /// The points of the rays.
     points: Vec<usize>,
 }
@@ -410,9 +413,10 @@ pub(super) fn ask_lamps<'a, O: Observer>(
                 continue;
             }
         }
-        for ((point, local), (light, arriving)) in points.iter().zip(&mut *locals).zip(&shadows.lights) {
+        for ((point, local), arriving) in points.iter().zip(&mut *locals).zip(&shadows.lights) {
             let Some(asks) = &local.asks else { continue };
             if O::WATCHES {
+                let light = lamp.illuminate(local.start, DVec2::ZERO);
                 let visible = arriving.as_ref().map(|arriving| arriving.visible);
                 observer.looked(&Look { lamp: number, from: local.start, light: light.as_ref(), visible });
             }
@@ -442,19 +446,19 @@ impl Shadows {
         self.lights.clear();
         for (i, (point, local)) in points.iter().zip(locals).enumerate() {
             if local.asks.is_none() {
-                self.lights.push((None, None));
+                self.lights.push(None);
                 continue;
             }
-            let light = lamp.illuminate(local.start, DVec2::ZERO);
-            let arriving = light.as_ref().and_then(|light| point.facing(light));
-            if let (Some(light), Some(Arriving { length, .. })) = (&light, &arriving)
-                && point.casts(light)
-            {
-                let ray = Ray { origin: local.start, direction: light.to_light };
-                self.ends.0[self.packet.push(&ray)] = short_of_the_light(&ray, *length, light.distance);
-                self.points.push(i);
-            }
-            self.lights.push((light, arriving));
+            let arriving = lamp.illuminate(local.start, DVec2::ZERO).and_then(|light| {
+                let arriving = point.facing(&light)?;
+                if point.casts(&light) {
+                    let ray = Ray { origin: local.start, direction: light.to_light };
+                    self.ends.0[self.packet.push(&ray)] = short_of_the_light(&ray, arriving.length, light.distance);
+                    self.points.push(i);
+                }
+                Some(arriving)
+            });
+            self.lights.push(arriving);
         }
         let Some(Point { snapshot, methods, .. }) = points.first() else { return };
         let mut cost = Cost::default();
@@ -464,7 +468,7 @@ impl Shadows {
         counts.shadow += self.packet.len() as u64;
         let blocked = opaque.blocked_packet(&self.packet, all, &self.ends.0, methods, &mut cost);
         for n in each(blocked) {
-            if let (_, Some(arriving)) = &mut self.lights[self.points[n]] {
+            if let Some(arriving) = &mut self.lights[self.points[n]] {
                 arriving.weaken(Rgb::ZERO);
             }
         }
@@ -477,9 +481,9 @@ impl Shadows {
                 if met >> n & 1 == 0 && interior.is_empty() {
                     continue;
                 }
-                if let (Some(light), Some(arriving)) = &mut self.lights[i] {
+                if let Some(arriving) = &mut self.lights[i] {
                     let (ray, end) = (self.packet.ray(n), self.ends.0[n]);
-                    arriving.weaken(points[i].through_clear(clear, ray, end, light.distance, interior, counts));
+                    arriving.weaken(points[i].through_clear(clear, ray, end, arriving.distance, interior, counts));
                 }
             }
         }
