@@ -144,9 +144,12 @@ pub(crate) fn above(t: f64) -> f32 {
     (t * (1.0 + ULP32) + TINY32) as f32
 }
 
+/// The largest coordinate from which differences to boxes stay within the range of `f32`.
+pub(super) const FARTHEST: f64 = 0.25 * f32::MAX as f64;
+
 /// Whether a ray starts where the differences to boxes leave the range of `f32`: what they say then is worth nothing.
 #[inline(always)]
 pub(crate) fn is_beyond_boxes(origin: DVec3) -> bool {
     let reach = origin.abs();
-    larger(larger(reach.x, reach.y), reach.z) > 0.25 * f64::from(f32::MAX)
+    larger(larger(reach.x, reach.y), reach.z) > FARTHEST
 }

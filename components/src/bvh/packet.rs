@@ -5,7 +5,7 @@
 
 use super::{
     Blocks, Bvh, Child, Node, WIDTH,
-    box_ray::{BoxRay, Planes, above, is_beyond_boxes},
+    box_ray::{BoxRay, FARTHEST, Planes, above},
     traverse::Leaf,
 };
 use crate::{
@@ -39,8 +39,27 @@ pub(crate) trait PacketVisitor {
 /// The valid rays of a packet whose distances to boxes are within the range of `f32`: the others must go alone.
 #[must_use]
 pub fn fits_boxes(packet: &Packet) -> Mask {
-    let beyond = packet::each(packet.valid()).filter(|&i| is_beyond_boxes(packet.ray(i).origin));
-    packet.valid() & !beyond.fold(0, |beyond, i| beyond | 1 << i)
+    lanes::run(Fitting(packet))
+}
+
+struct Fitting<'a>(&'a Packet);
+
+impl Job for Fitting<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Mask {
+        let mut fitting = 0;
+        let most = l.d_splat(FARTHEST);
+        for (group, which) in packet::groups(self.0.valid()) {
+            let [[x, y, z], _] = self.0.four(group);
+            let within = l.d_le(l.d_abs(l.d_load(x)), most)
+                & l.d_le(l.d_abs(l.d_load(y)), most)
+                & l.d_le(l.d_abs(l.d_load(z)), most);
+            fitting |= Mask::from(within & which) << (4 * group);
+        }
+        fitting
+    }
 }
 
 /// Rays prepared for box tests.
