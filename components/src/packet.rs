@@ -183,7 +183,7 @@ mod tests {
         }
         let numbers: Vec<_> = each(packet.valid()).collect();
         assert_eq!(numbers, (0..PACKET).filter(|i| i % 5 != 3).collect::<Vec<_>>());
-        assert_eq!(packet.four(2)[1][1], &[8.0, 9.0, 10.0, 11.0]);
+        assert_eq!(packet.four(2)[0][0], &[8.0, 9.0, 10.0, 11.0]);
         assert_eq!(groups(0b1001 << 60 | 0b0110).collect::<Vec<_>>(), [(0, 0b0110), (15, 0b1001)]);
         packet.clear();
         assert!(packet.is_empty() && packet.valid() == 0 && each(0).next().is_none());
