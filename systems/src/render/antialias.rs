@@ -1,7 +1,7 @@
 //! How rays are placed in a pixel, and what its light is made of.
 
 use super::{
-    Counts, Key, Region,
+    Counts, Key,
     budget::variance_for_pixels,
     footprint::{Beside, Neighbours},
     observe::Observer,
@@ -12,7 +12,6 @@ use glam::DVec2;
 use snell_components::{
     color::Rgb,
     method::Methods,
-    packet::PACKET,
     settings::{Antialias, MAX_SUBDIVISIONS, Settings},
 };
 use std::collections::{BTreeMap, BinaryHeap};
@@ -22,7 +21,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 /// Corners are shared by the pixels that meet there: what a ray through a corner brings is kept for the pixel to the
 /// right and the row below. It depends on the corner alone, so what is kept changes the cost, never a bit.
 pub(super) struct Pixels<'a, O> {
-    snapshot: &'a Snapshot,
+    pub(super) snapshot: &'a Snapshot,
     methods: &'a Methods,
     pub(super) counts: &'a mut Counts,
     observer: &'a mut O,
@@ -32,7 +31,7 @@ pub(super) struct Pixels<'a, O> {
     /// Rays traced so far.
     traced: u32,
     room: Box<Room>,
-    brought: Vec<Brought>,
+    pub(super) brought: Vec<Brought>,
 }
 
 /// What a ray through a point of the picture brings.
@@ -48,58 +47,10 @@ pub(super) struct Seen {
 }
 
 /// Where the `i`th of `n` by `n` rays goes through a pixel.
-fn in_grid(n: u32, x: u32, y: u32, i: u32) -> (f64, f64) {
+pub(super) fn in_grid(n: u32, x: u32, y: u32, i: u32) -> (f64, f64) {
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(n) - 0.5;
     let (dx, dy) = (place(i / n), place(i % n));
     (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy)
-}
-
-impl Pixels<'_, ()> {
-    /// The edge of the squares of pixels that are drawn together.
-    pub(super) fn edge(&self) -> u32 {
-        let settings = &self.snapshot.settings;
-        match settings.antialias {
-            Antialias::Off => 8,
-            Antialias::Four => 4,
-            Antialias::Grid => (8 / settings.grid.max(1)).max(1),
-            Antialias::Adaptive => 1,
-        }
-    }
-
-    /// The linear light of some pixels, row by row: each as [`Pixels::light`] tells it.
-    pub(super) fn lights(&mut self, region: Region, lights: &mut Vec<Rgb>) {
-        lights.clear();
-        let settings = &self.snapshot.settings;
-        let n = match settings.antialias {
-            Antialias::Off => 1,
-            Antialias::Four => 2,
-            Antialias::Grid => settings.grid,
-            Antialias::Adaptive => {
-                for i in 0..region.width * region.height {
-                    lights.push(self.light(region.x + i % region.width, region.y + i / region.width));
-                }
-                return;
-            }
-        };
-        let (each, share, spacing) = (n * n, 1.0 / f64::from(n * n), 1.0 / f64::from(n));
-        self.brought.clear();
-        let count = region.width * region.height * each;
-        for first in (0..count).step_by(PACKET) {
-            let rays = first..count.min(first + PACKET as u32);
-            let point = |ray: u32| {
-                let (pixel, i) = (ray / each, ray % each);
-                let (x, y) = (region.x + pixel % region.width, region.y + pixel / region.width);
-                let (px, py) = in_grid(n, x, y, i);
-                (px, py, Key::of_pixel(x, y, i))
-            };
-            self.trace(rays.map(point), spacing);
-        }
-        lights.extend(self.brought.chunks_exact(each as usize).map(|rays| {
-            let mut sum = Rgb::ZERO;
-            rays.iter().for_each(|ray| sum += ray.light * share);
-            sum
-        }));
-    }
 }
 
 /// Steps of the lattice of corners in a pixel: the middle of the smallest part lies on it.
@@ -172,8 +123,8 @@ impl<'a, O: Observer> Pixels<'a, O> {
         Seen { light, object, cut_bound, number }
     }
 
-    /// Adds what rays through some points of the picture bring, at most [`PACKET`], to what was brought.
-    fn trace(&mut self, points: impl Iterator<Item = (f64, f64, Key)>, spacing: f64) {
+    /// Adds what rays through some points of the picture bring, at most as many as a packet holds, to what was brought.
+    pub(super) fn trace(&mut self, points: impl Iterator<Item = (f64, f64, Key)>, spacing: f64) {
         let Self { snapshot, methods, counts, observer, room, brought, .. } = self;
         let before = brought.len();
         let Settings { width, height, .. } = snapshot.settings;

@@ -4,6 +4,7 @@
 //! order of tiles nor the region can change a bit of it.
 
 mod antialias;
+mod block;
 mod budget;
 mod counts;
 mod footprint;
