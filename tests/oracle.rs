@@ -217,8 +217,8 @@ fn rays_in_a_packet_meet_what_they_meet_alone_bit_for_bit() {
             }
             let limit = if n % 5 == 0 { 15.0 * random.unit() } else { f64::INFINITY };
             let (with, mut cost) = (Methods::default(), Cost::default());
-            best.begin(packet.len(), limit);
-            geometry.nearest_packet(&packet, &with, &mut best, &mut cost);
+            best.begin(packet.all(), limit);
+            geometry.nearest_packet(&packet, packet.all(), &with, &mut best, &mut cost);
             let asked = packet.all() & ((u64::MAX / 3) | n);
             let blocked = geometry.blocked_packet(&packet, asked, &t_max, &with, &mut cost);
             for (i, &t_max) in t_max[..packet.len()].iter().enumerate() {

@@ -169,9 +169,9 @@ impl Rays {
                 Some(nearest.hit.t)
             }),
             Search::Packets { geometry, mesh } => self.packets(threads, |room, cost| {
-                room.best.begin(room.packet.len(), f64::INFINITY);
+                room.best.begin(room.packet.all(), f64::INFINITY);
                 room.best.limit = room.t_max;
-                geometry.nearest_packet(&room.packet, methods, &mut room.best, cost);
+                geometry.nearest_packet(&room.packet, room.packet.all(), methods, &mut room.best, cost);
                 let nearest = (0..room.packet.len()).filter_map(|i| room.best.nearest(i));
                 nearest.fold((0, 0.0), |(hits, sum), nearest| {
                     let [a, b, c] = mesh.corners(nearest.hit.part as usize);

@@ -27,7 +27,7 @@
 //! | [`lanes`] | several numbers at once, at the level the machine has |
 //! | [`bvh`] | the bounding-volume tree, over bounds alone |
 //! | [`method`], [`sphere_tree`], [`real`] | the methods Snell is measured against, and the choice between them |
-//! | [`primitive`] | the contract every shape meets; [`shape`] holds the built-in ones |
+//! | [`primitive`], [`surfaces`] | the contract every shape meets, and what rays that travel together meet; [`shape`] holds the built-in ones |
 //! | [`figure`] | shapes made of many triangles or spheres by a rule; [`random`] their numbers |
 //! | [`material`], [`texture`], [`light`], [`camera`], [`settings`] | what the rays meet and how the picture is taken |
 
@@ -70,6 +70,8 @@ pub mod method;
 pub mod real;
 
 pub mod primitive;
+
+pub mod surfaces;
 
 pub mod shape;
 

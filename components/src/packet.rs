@@ -4,7 +4,11 @@
 //! A packet changes how fast a hit is found, never the hit: every shape gives each ray of a packet what it gives the ray
 //! alone, to the last bit.
 
-use crate::{primitive::Hit, space::Ray};
+use crate::{
+    lanes::{self, Job, Lanes, vector},
+    primitive::Hit,
+    space::Ray,
+};
 use glam::DVec3;
 
 /// Most rays in a packet.
@@ -15,6 +19,22 @@ pub type Mask = u64;
 
 /// A number for each ray of a packet.
 pub type PerRay = [f64; PACKET];
+
+/// A vector for each ray of a packet, by axis.
+pub type Vectors = [PerRay; 3];
+
+/// One of some vectors.
+#[must_use]
+#[inline]
+pub fn vector_of([x, y, z]: &Vectors, i: usize) -> DVec3 {
+    DVec3::new(x[i], y[i], z[i])
+}
+
+/// Sets one of some vectors.
+#[inline]
+pub fn set_vector([x, y, z]: &mut Vectors, i: usize, to: DVec3) {
+    (x[i], y[i], z[i]) = (to.x, to.y, to.z);
+}
 
 /// The rays of a mask, lowest first.
 #[inline]
@@ -30,8 +50,10 @@ pub fn each(mut mask: Mask) -> impl Iterator<Item = usize> {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Packet {
-    origins: [PerRay; 3],
-    directions: [PerRay; 3],
+    /// World space.
+    pub origins: Vectors,
+    /// World space, of any length but zero.
+    pub directions: Vectors,
     len: usize,
     valid: Mask,
 }
@@ -55,13 +77,26 @@ impl Packet {
     #[inline]
     pub fn push(&mut self, ray: &Ray) -> usize {
         let i = self.len;
-        for (axis, (from, to)) in ray.origin.to_array().into_iter().zip(ray.direction.to_array()).enumerate() {
-            self.origins[axis][i] = from;
-            self.directions[axis][i] = to;
-        }
-        self.valid |= Mask::from(ray.is_valid()) << i;
+        self.set(i, ray);
         self.len += 1;
         i
+    }
+
+    /// Sets a ray where it stands.
+    ///
+    /// # Panics
+    /// If its number is [`PACKET`] or more.
+    #[inline]
+    pub fn set(&mut self, i: usize, ray: &Ray) {
+        set_vector(&mut self.origins, i, ray.origin);
+        set_vector(&mut self.directions, i, ray.direction);
+        self.valid = self.valid & !(1 << i) | Mask::from(ray.is_valid()) << i;
+    }
+
+    /// Tells which of some rays, whose origins and directions were set, are valid.
+    #[inline]
+    pub fn check(&mut self, rays: Mask) {
+        self.valid = self.valid & !rays | lanes::run(Valid(self, rays));
     }
 
     /// Count of rays.
@@ -95,8 +130,7 @@ impl Packet {
     #[must_use]
     #[inline]
     pub fn ray(&self, i: usize) -> Ray {
-        let of = |[x, y, z]: &[PerRay; 3]| DVec3::new(x[i], y[i], z[i]);
-        Ray { origin: of(&self.origins), direction: of(&self.directions) }
+        Ray { origin: vector_of(&self.origins, i), direction: vector_of(&self.directions, i) }
     }
 
     /// Coordinates of four rays: by axis, origins and then directions.
@@ -108,9 +142,36 @@ impl Packet {
     }
 }
 
+/// [`Ray::is_valid`] of some rays.
+struct Valid<'a>(&'a Packet, Mask);
+
+impl Job for Valid<'_> {
+    type Output = Mask;
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) -> Mask {
+        let Self(packet, rays) = self;
+        let zero = l.d_splat(0.0);
+        let mut valid = 0;
+        for (group, which) in groups(rays) {
+            let origin = vector::load(l, &packet.origins, group);
+            let direction = vector::load(l, &packet.directions, group);
+            let nothing = vector::add(l, vector::times(l, origin, zero), vector::times(l, direction, zero));
+            let sum = l.d_add(l.d_add(nothing[0], nothing[1]), nothing[2]);
+            let somewhere = l.d_lt(zero, vector::reach(l, direction));
+            valid |= Mask::from(vector::equal(l, sum, zero) & somewhere & which) << (4 * group);
+        }
+        valid
+    }
+}
+
 /// Four numbers, from four times `group` on.
+///
+/// # Panics
+/// If there are not so many.
+#[must_use]
 #[inline(always)]
-pub(crate) fn four(numbers: &PerRay, group: usize) -> &[f64; 4] {
+pub fn four(numbers: &PerRay, group: usize) -> &[f64; 4] {
     &numbers.as_chunks().0[group]
 }
 
@@ -132,7 +193,7 @@ impl Default for Hits {
 
 /// The groups of four that hold some rays: the number of each, and which of its four they are.
 #[inline(always)]
-pub(crate) fn groups(mut rays: Mask) -> impl Iterator<Item = (usize, u32)> {
+pub fn groups(mut rays: Mask) -> impl Iterator<Item = (usize, u32)> {
     core::iter::from_fn(move || {
         let group = rays.trailing_zeros() as usize / 4;
         let which = rays.checked_shr(4 * group as u32)? as u32 & 0b1111;
@@ -184,6 +245,13 @@ mod tests {
         let numbers: Vec<_> = each(packet.valid()).collect();
         assert_eq!(numbers, (0..PACKET).filter(|i| i % 5 != 3).collect::<Vec<_>>());
         assert_eq!(packet.four(2)[0][0], &[8.0, 9.0, 10.0, 11.0]);
+        let valid = packet.valid();
+        packet.valid = 0;
+        packet.check(packet.all());
+        assert_eq!(packet.valid(), valid);
+        packet.set(0, &Ray { origin: DVec3::NAN, direction: DVec3::X });
+        packet.check(1);
+        assert_eq!(packet.valid(), valid & !1);
         assert_eq!(groups(0b1001 << 60 | 0b0110).collect::<Vec<_>>(), [(0, 0b0110), (15, 0b1001)]);
         packet.clear();
         assert!(packet.is_empty() && packet.valid() == 0 && each(0).next().is_none());

@@ -6,6 +6,7 @@
 
 mod portable;
 mod stack;
+pub mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
 
@@ -75,7 +76,7 @@ impl Level {
 }
 
 /// Work to be done at the current level.
-pub(crate) trait Job {
+pub trait Job {
     /// What comes of it.
     type Output;
 
@@ -86,7 +87,7 @@ pub(crate) trait Job {
 
 /// Does a job at the current level.
 #[inline(always)]
-pub(crate) fn run<J: Job>(job: J) -> J::Output {
+pub fn run<J: Job>(job: J) -> J::Output {
     run_at(Level::current(), job)
 }
 
@@ -112,7 +113,8 @@ fn run_portable<J: Job>(job: J) -> J::Output {
 ///
 /// Minimum and maximum give the second argument on equality and for NaN: `if a < b { a } else { b }`. Comparisons give a
 /// bit per lane, the lowest for the first.
-pub(crate) trait Lanes: Copy {
+#[expect(missing_docs, reason = "the operations are those of their names, on every lane")]
+pub trait Lanes: Copy {
     /// Eight `f32`.
     type F: Copy;
     /// Four `f64`.
@@ -133,6 +135,8 @@ pub(crate) trait Lanes: Copy {
 
     fn d_load(self, from: &[f64; 4]) -> Self::D;
     fn d_store(self, a: Self::D, to: &mut [f64; 4]);
+    /// Stores the lanes of a mask, and leaves the others as they are.
+    fn d_store_some(self, a: Self::D, which: u32, to: &mut [f64; 4]);
     /// Exact.
     fn d_widen(self, from: &[f32; 4]) -> Self::D;
     /// To nearest; beyond the range of `f32`, infinite.
@@ -155,6 +159,8 @@ pub(crate) trait Lanes: Copy {
     fn d_le(self, a: Self::D, b: Self::D) -> u32;
     /// Where `a < b`, of `x`; elsewhere, and for NaN, of `y`.
     fn d_if_lt(self, a: Self::D, b: Self::D, x: Self::D, y: Self::D) -> Self::D;
+    /// The lanes of a mask of `a`, the others of `b`.
+    fn d_select(self, which: u32, a: Self::D, b: Self::D) -> Self::D;
 }
 
 #[cfg(test)]
@@ -186,11 +192,15 @@ mod tests {
                 l.d_splat(self.0[0][3]),
                 l.d_if_lt(a, b, b, a),
                 l.d_if_lt(l.d_splat(0.0), a, a, b),
+                l.d_select(self.0[0][1].to_bits() as u32 & 15, a, b),
             ] {
                 let mut to = [0.0; 4];
                 l.d_store(d, &mut to);
                 bits.extend(to.map(canonical));
             }
+            let mut some = self.0[1];
+            l.d_store_some(a, self.0[0][2].to_bits() as u32 >> 3 & 15, &mut some);
+            bits.extend(some.map(canonical));
             bits.extend(l.d_narrow(a).map(|x| canonical(f64::from(x))));
             let [a32, b32] = [l.f_load(&self.1[0]), l.f_load(&self.1[1])];
             let (least, le) = l.f_least_of_le(a32, b32, l.f_splat(1.0));

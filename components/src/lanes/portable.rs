@@ -66,6 +66,10 @@ impl Lanes for Portable {
         *to = a;
     }
     #[inline(always)]
+    fn d_store_some(self, a: [f64; 4], which: u32, to: &mut [f64; 4]) {
+        *to = self.d_select(which, a, *to);
+    }
+    #[inline(always)]
     fn d_widen(self, from: &[f32; 4]) -> [f64; 4] {
         from.map(f64::from)
     }
@@ -124,6 +128,10 @@ impl Lanes for Portable {
     #[inline(always)]
     fn d_le(self, a: [f64; 4], b: [f64; 4]) -> u32 {
         mask::<4>(|i| a[i] <= b[i])
+    }
+    #[inline(always)]
+    fn d_select(self, which: u32, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        from_fn(|i| if which >> i & 1 != 0 { a[i] } else { b[i] })
     }
     #[inline(always)]
     fn d_if_lt(self, a: [f64; 4], b: [f64; 4], x: [f64; 4], y: [f64; 4]) -> [f64; 4] {

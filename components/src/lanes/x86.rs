@@ -103,8 +103,26 @@ macro_rules! common {
     };
 }
 
+/// Masks of lanes as AVX2 wants them.
+const MASKS: [[i64; 4]; 16] = {
+    let mut masks = [[0; 4]; 16];
+    let mut i = 0;
+    while i < 64 {
+        masks[i / 4][i % 4] = -(((i / 4) >> (i % 4) & 1) as i64);
+        i += 1;
+    }
+    masks
+};
+
 impl Lanes for Avx2 {
     common!();
+
+    op!(d_select(which: u32, a: __m256d, b: __m256d) -> __m256d =
+        _mm256_blendv_pd(b, a, _mm256_loadu_pd(MASKS[which as usize & 15].as_ptr().cast())));
+    op!(d_store_some(a: __m256d, which: u32, to: &mut [f64; 4]) -> () = {
+        let mask = _mm256_loadu_si256(MASKS[which as usize & 15].as_ptr().cast());
+        _mm256_maskstore_pd(to.as_mut_ptr(), mask, a);
+    });
 
     op!(f_least_of_le(a: __m256, b: __m256, c: __m256) -> (__m256, u32) = {
         let le = _mm256_cmp_ps::<_CMP_LE_OQ>(a, b);
@@ -120,6 +138,10 @@ impl Lanes for Avx2 {
 
 impl Lanes for Avx512 {
     common!();
+
+    op!(d_select(which: u32, a: __m256d, b: __m256d) -> __m256d = _mm256_mask_blend_pd(which as u8, b, a));
+    op!(d_store_some(a: __m256d, which: u32, to: &mut [f64; 4]) -> () =
+        _mm256_mask_storeu_pd(to.as_mut_ptr(), which as u8, a));
 
     op!(f_least_of_le(a: __m256, b: __m256, c: __m256) -> (__m256, u32) = {
         let le = _mm256_cmp_ps_mask::<_CMP_LE_OQ>(a, b);

@@ -3,15 +3,17 @@
 //! `shading: AsModelled` smooths the triangles whose corners have normals in the file; `Flat` smooths none; `Smooth`
 //! smooths all, with the area-weighted mean normal of the faces around each vertex where the file has none.
 
-use super::{mesh_methods::OtherTrees, mesh_tree::MeshTree, shear::RayFrame, terminator};
+use super::{mesh_methods::OtherTrees, mesh_surface::MetMesh, mesh_tree::MeshTree, shear::RayFrame, terminator};
 use crate::{
     asset::Asset,
     choice,
     describe::Describe,
+    lanes,
     method::Methods,
     packet::{Hits, Mask, Packet, PerRay},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Bounds, Ray},
+    surfaces::{Meeting, Surfaces},
 };
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DMat3, DVec2, DVec3};
@@ -173,6 +175,12 @@ impl TriangleMesh {
         values + corners * 12 + self.slots.len() * 2 + tree
     }
 
+    /// Texture coordinates at a triangle's corners, if it has any.
+    #[inline]
+    pub(super) fn uvs_of(&self, triangle: u32) -> Option<[[f32; 2]; 3]> {
+        self.uvs.of(triangle)
+    }
+
     #[inline]
     fn points(&self, corners: [u32; 3]) -> [DVec3; 3] {
         corners.map(|i| point(self.positions[i as usize]))
@@ -215,7 +223,7 @@ pub(super) fn point([x, y, z]: [f32; 3]) -> DVec3 {
 }
 
 #[inline]
-fn point2([x, y]: [f32; 2]) -> DVec2 {
+pub(super) fn point2([x, y]: [f32; 2]) -> DVec2 {
     DVec2::new(f64::from(x), f64::from(y))
 }
 
@@ -285,22 +293,24 @@ pub struct PackedMesh {
     placed: Arc<Placed>,
 }
 
+/// What [`PackedMesh`] points to.
 #[derive(Debug)]
-struct Placed {
-    tree: Arc<MeshTree>,
-    mesh: Arc<TriangleMesh>,
+pub(super) struct Placed {
+    pub(super) tree: Arc<MeshTree>,
+    pub(super) mesh: Arc<TriangleMesh>,
     shading: Shading,
-    object_from_world: DAffine3,
-    world_from_object: DAffine3,
-    cotangent: DMat3,
+    pub(super) object_from_world: DAffine3,
+    pub(super) world_from_object: DAffine3,
+    /// Turns normals, but for their lengths.
+    pub(super) cotangent: DMat3,
     /// Of a point of the surface, world units.
-    error: f64,
+    pub(super) error: f64,
 }
 
 impl Placed {
     /// The normals at a triangle's vertices, object space, if it is smoothed; of any length.
     #[inline]
-    fn normals(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
+    pub(super) fn normals(&self, triangle: u32) -> Option<[[f32; 3]; 3]> {
         let mesh = &*self.mesh;
         let modelled = || mesh.normals.of(triangle);
         match self.shading {
@@ -312,6 +322,12 @@ impl Placed {
                 Some([normals[a as usize], normals[b as usize], normals[c as usize]])
             }),
         }
+    }
+
+    /// The slot of a triangle's material.
+    #[inline]
+    pub(super) fn slot_of(&self, triangle: u32) -> u32 {
+        self.mesh.slots.get(triangle as usize).map_or(0, |&slot| u32::from(slot))
     }
 
     /// See [`Primitive::lift`].
@@ -330,7 +346,6 @@ impl Placed {
     /// The surface at a hit without texture coordinates, and the weights of the triangle's vertices there.
     #[inline]
     fn surface(&self, ray: &Ray, hit: Hit) -> (Surface, [f64; 3]) {
-        let mesh = &*self.mesh;
         let vertices = self.tree.vertices(hit.part);
         let [a, b, c] = vertices;
         let [u, v, w] = RayFrame::new(&ray.transformed(&self.object_from_world)).weights(vertices);
@@ -342,7 +357,7 @@ impl Placed {
             normal,
             shading_normal: blended.map_or(normal, |blended| (self.cotangent * blended).normalize_or(normal)),
             uv: DVec2::ZERO,
-            slot: mesh.slots.get(hit.part as usize).map_or(0, |&slot| u32::from(slot)),
+            slot: self.slot_of(hit.part),
             error: self.error,
         };
         (surface, [u, v, w])
@@ -430,7 +445,7 @@ impl Primitive for Mesh {
     #[inline]
     fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {
         let (surface, [u, v, w]) = packed.placed.surface(ray, hit);
-        let uv = match packed.placed.mesh.uvs.of(hit.part) {
+        let uv = match packed.placed.mesh.uvs_of(hit.part) {
             Some([a, b, c]) => point2(a) * u + point2(b) * v + point2(c) * w,
             None => DVec2::new(v, w),
         };
@@ -444,6 +459,16 @@ impl Primitive for Mesh {
 
     fn lift(packed: &PackedMesh, ray: &Ray, hit: Hit) -> DVec3 {
         packed.placed.lift(ray, hit)
+    }
+
+    fn surface_packet(meshes: &[PackedMesh], met: &Meeting<'_>, surfaces: &mut Surfaces) {
+        let mut rest = met.rays;
+        while rest != 0 {
+            let mesh = met.shape[rest.trailing_zeros() as usize];
+            let rays = rest & met.with(mesh);
+            rest &= !rays;
+            lanes::run(MetMesh { placed: &meshes[mesh as usize].placed, met, rays, surfaces });
+        }
     }
 
     fn bounding_sphere(packed: &PackedMesh, _: &Bounds) -> BoundingSphere {

@@ -69,11 +69,18 @@ impl MeshTree {
         self.tree.bytes() + self.blocks.len() * size_of::<Block>() + self.places.len() * size_of::<u32>()
     }
 
+    /// The block that a triangle stands in, and its lane there.
+    #[inline]
+    pub(super) fn block_of(&self, triangle: u32) -> (&Block, usize) {
+        let place = self.places[triangle as usize] as usize;
+        (&self.blocks[place / BLOCK], place % BLOCK)
+    }
+
     /// The vertices of a triangle, from where the search has just read them.
     #[inline]
     pub(super) fn vertices(&self, triangle: u32) -> [DVec3; 3] {
-        let place = self.places[triangle as usize] as usize;
-        self.blocks[place / BLOCK].vertices_of(place % BLOCK)
+        let (block, lane) = self.block_of(triangle);
+        block.vertices_of(lane)
     }
 
     /// The nearest hit within `t_max`, the lowest triangle among equally near ones; the ray is in the world.

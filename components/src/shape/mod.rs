@@ -6,6 +6,7 @@ mod cylinder;
 mod mesh;
 mod mesh_methods;
 mod mesh_packet;
+mod mesh_surface;
 mod mesh_tree;
 mod moller_trumbore;
 mod plane;

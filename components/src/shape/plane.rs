@@ -4,10 +4,11 @@
 
 use crate::{
     describe::Describe,
-    lanes::{self, Job, Lanes},
+    lanes::{self, Job, Lanes, vector},
     packet::{self, Hits, Mask, Packet, PerRay, four},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     space::Ray,
+    surfaces::{Meeting, Surfaces},
 };
 use bevy_ecs::prelude::*;
 use glam::{DAffine3, DVec2, DVec3};
@@ -66,6 +67,41 @@ impl Job for Crossings<'_> {
     }
 }
 
+/// The surface of a plane that some rays met.
+struct Met<'a> {
+    plane: &'a PackedPlane,
+    met: &'a Meeting<'a>,
+    rays: Mask,
+    surfaces: &'a mut Surfaces,
+}
+
+impl Job for Met<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        let Self { plane, met, rays, surfaces } = self;
+        let normal = vector::splat(l, plane.normal);
+        let error = l.d_splat(Surface::rounding(plane.point.abs().max_element()));
+        for (group, which) in packet::groups(rays) {
+            let way = vector::times(l, vector::load(l, &met.packet.directions, group), l.d_load(four(met.t, group)));
+            let reached = vector::add(l, vector::load(l, &met.packet.origins, group), way);
+            // Back onto the plane, as for a ray alone.
+            let off = vector::dot(l, normal, vector::sub(l, vector::splat(l, plane.point), reached));
+            let point = vector::add(l, reached, vector::times(l, normal, off));
+            let [x, _, z] = vector::moved(l, &plane.object_from_world, point);
+            vector::store(l, point, which, &mut surfaces.point, group);
+            vector::store(l, normal, which, &mut surfaces.normal, group);
+            vector::store(l, normal, which, &mut surfaces.shading_normal, group);
+            vector::store(l, vector::splat(l, DVec3::ZERO), which, &mut surfaces.lift, group);
+            l.d_store_some(error, which, &mut surfaces.error.as_chunks_mut().0[group]);
+            l.d_store_some(x, which, &mut surfaces.uv[0].as_chunks_mut().0[group]);
+            l.d_store_some(vector::minus(l, z), which, &mut surfaces.uv[1].as_chunks_mut().0[group]);
+        }
+        packet::each(rays).for_each(|i| surfaces.slot[i] = 0);
+    }
+}
+
 impl Primitive for Plane {
     type Packed = PackedPlane;
 
@@ -119,6 +155,16 @@ impl Primitive for Plane {
             uv: DVec2::new(local.x, -local.z),
             slot: 0,
             error: Surface::rounding(packed.point.abs().max_element()),
+        }
+    }
+
+    fn surface_packet(planes: &[PackedPlane], met: &Meeting<'_>, surfaces: &mut Surfaces) {
+        let mut rest = met.rays;
+        while rest != 0 {
+            let plane = met.shape[rest.trailing_zeros() as usize];
+            let rays = rest & met.with(plane);
+            rest &= !rays;
+            lanes::run(Met { plane: &planes[plane as usize], met, rays, surfaces });
         }
     }
 }

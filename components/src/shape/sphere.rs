@@ -5,13 +5,14 @@
 
 use crate::{
     describe::Describe,
-    lanes::{self, Job, Lanes},
+    lanes::{self, Job, Lanes, vector},
     math,
     method::{Methods, Precision, SphereTest},
     packet::{self, Hits, Mask, Packet, PerRay, four},
-    primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
+    primitive::{Cost, Degenerate, Extent, Hit, OFFSET_ULPS, Primitive, Surface, surface_alone},
     real::{self, Real, Vector},
     space::{BoundingSphere, Bounds, Ray},
+    surfaces::{Meeting, Surfaces},
 };
 use bevy_ecs::prelude::*;
 use core::f64::consts::PI;
@@ -312,10 +313,77 @@ impl Primitive for Sphere {
         Surface { point, normal, shading_normal: normal, uv: DVec2::ZERO, slot: 0, error }
     }
 
+    fn surface_packet(spheres: &[PackedSphere], met: &Meeting<'_>, surfaces: &mut Surfaces) {
+        let mut balls = 0;
+        for i in packet::each(met.rays) {
+            let sphere = &spheres[met.shape[i] as usize];
+            match sphere.form {
+                Form::Ball(_) => balls |= 1 << i,
+                Form::Ellipsoid(_) => {
+                    let (ray, _, hit) = met.of(i);
+                    surface_alone::<Self>(sphere, &ray, hit, met.textured >> i & 1 != 0, i, surfaces);
+                }
+            }
+        }
+        lanes::run(Balls { spheres, met, balls, surfaces });
+        for i in packet::each(balls & met.textured) {
+            if let Form::Ball(object_from_world) = &spheres[met.shape[i] as usize].form {
+                let normal = packet::vector_of(&surfaces.normal, i);
+                surfaces.set_uv(i, sphere_uv((**object_from_world * normal).normalize_or(DVec3::Y)));
+            }
+        }
+    }
+
     fn bounding_sphere(packed: &PackedSphere, bounds: &Bounds) -> BoundingSphere {
         match packed.form {
             Form::Ball(_) => BoundingSphere::about(packed.center, [packed.center + DVec3::X * packed.radius]),
             Form::Ellipsoid(_) => BoundingSphere::of_bounds(bounds),
+        }
+    }
+}
+
+/// The surfaces of balls that some rays met, but for texture coordinates.
+struct Balls<'a> {
+    spheres: &'a [PackedSphere],
+    met: &'a Meeting<'a>,
+    balls: Mask,
+    surfaces: &'a mut Surfaces,
+}
+
+impl Job for Balls<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        let Self { spheres, met, balls, surfaces } = self;
+        let up = vector::splat(l, DVec3::Y);
+        for (group, which) in packet::groups(balls) {
+            // Their centres, and their radii.
+            let mut of = [[0.0; 4]; 4];
+            for lane in 0..4 {
+                if which >> lane & 1 != 0 {
+                    let PackedSphere { center, radius, .. } = &spheres[met.shape[4 * group + lane] as usize];
+                    (of[0][lane], of[1][lane], of[2][lane], of[3][lane]) = (center.x, center.y, center.z, *radius);
+                }
+            }
+            let center = [l.d_load(&of[0]), l.d_load(&of[1]), l.d_load(&of[2])];
+            let radius = l.d_load(&of[3]);
+            let way = vector::times(l, vector::load(l, &met.packet.directions, group), l.d_load(four(met.t, group)));
+            let reached = vector::add(l, vector::load(l, &met.packet.origins, group), way);
+            let normal = vector::unit_or(l, vector::sub(l, reached, center), up);
+            let point = vector::add(l, center, vector::times(l, normal, radius));
+            let reach = l.d_add(vector::reach(l, center), radius);
+            let error = l.d_mul(l.d_splat(OFFSET_ULPS * f64::EPSILON), reach);
+            vector::store(l, point, which, &mut surfaces.point, group);
+            vector::store(l, normal, which, &mut surfaces.normal, group);
+            vector::store(l, normal, which, &mut surfaces.shading_normal, group);
+            vector::store(l, vector::splat(l, DVec3::ZERO), which, &mut surfaces.lift, group);
+            l.d_store_some(error, which, &mut surfaces.error.as_chunks_mut().0[group]);
+            for lane in 0..4 {
+                if which >> lane & 1 != 0 {
+                    surfaces.slot[4 * group + lane] = 0;
+                }
+            }
         }
     }
 }

@@ -5,6 +5,8 @@
 //! angles to the vertices' normals lie above it, weighted as the normals are (Hanika: Hacking the Shadow Terminator, Ray
 //! Tracing Gems II, chapter 4). What is curved inward is left where it is.
 
+use super::mesh_surface::blend;
+use crate::lanes::{Lanes, vector};
 use glam::DVec3;
 
 /// The way from a point of a facet to the curved surface above it.
@@ -20,6 +22,24 @@ pub(super) fn lift(vertices: [DVec3; 3], normals: [DVec3; 3], weights: [f64; 3])
         if below > 0.0 {
             lift += normal * (below * weight);
         }
+    }
+    lift
+}
+
+/// [`lift`] of four points.
+#[inline(always)]
+pub(super) fn lift_of_four<L: Lanes>(
+    l: L,
+    vertices: [vector::Four<L>; 3],
+    normals: [vector::Four<L>; 3],
+    weights: [L::D; 3],
+) -> vector::Four<L> {
+    let point = blend(l, vertices, weights);
+    let mut lift = vector::splat(l, DVec3::ZERO);
+    for i in 0..3 {
+        let below = vector::dot(l, vector::sub(l, vertices[i], point), normals[i]);
+        let more = vector::add(l, lift, vector::times(l, normals[i], l.d_mul(below, weights[i])));
+        lift = vector::select(l, l.d_lt(l.d_splat(0.0), below), more, lift);
     }
     lift
 }

@@ -1,7 +1,6 @@
 //! Every shape of a scene, and the tree over them.
 
 use super::pool::{Best, Bests, ErasedPool, Nearest, Run};
-use glam::DVec3;
 use snell_components::{
     bvh::{Box32, Bvh, fits_boxes},
     method::{Accelerator, Methods, Precision},
@@ -9,6 +8,7 @@ use snell_components::{
     primitive::{Cost, Extent, Hit, Surface},
     space::{BoundingSphere, Ray},
     sphere_tree::SphereTree,
+    surfaces::{Meeting, Surfaces},
 };
 use std::sync::{Arc, OnceLock};
 
@@ -164,12 +164,30 @@ impl Geometry {
         less_sure(self.pools[pool as usize].surface_without_uv(index, ray, hit), hit.t, ray, with)
     }
 
-    /// The way from the point that [`Geometry::nearest`] found for this ray to where rays to lights start; see
-    /// [`snell_components::primitive::Primitive::lift`].
-    #[must_use]
-    pub fn lift(&self, met: &Nearest, ray: &Ray) -> DVec3 {
-        let Nearest { hit, pool, index, .. } = *met;
-        self.pools[pool as usize].lift(index, ray, hit)
+    /// The surfaces at what some rays of a packet met, as [`Geometry::surface`] tells of each; texture coordinates for
+    /// those alone that are `textured`.
+    pub fn surfaces(
+        &self,
+        packet: &Packet,
+        (rays, textured): (Mask, Mask),
+        best: &Bests,
+        with: &Methods,
+        surfaces: &mut Surfaces,
+    ) {
+        let Bests { limit, part, pool, index, .. } = best;
+        let mut rest = rays;
+        while rest != 0 {
+            let of = pool[rest.trailing_zeros() as usize];
+            let mine = each(rest).filter(|&i| pool[i] == of).fold(0, |mine, i| mine | 1 << i);
+            rest &= !mine;
+            let met = Meeting { packet, rays: mine, textured: mine & textured, shape: index, t: limit, part };
+            self.pools[of as usize].surfaces(&met, surfaces);
+        }
+        if with.precision == Precision::F32 {
+            for i in each(rays) {
+                surfaces.error[i] = less_sure(surfaces.get(i), limit[i], &packet.ray(i), with).error;
+            }
+        }
     }
 
     /// How a surface that was met goes on: where a ray close by, at a distance `t`, crosses its tangent plane.
@@ -269,10 +287,11 @@ impl Geometry {
         }
     }
 
-    /// [`Geometry::nearest`] for all rays of a packet, the same to the last bit; `best` has begun.
-    pub fn nearest_packet(&self, packet: &Packet, with: &Methods, best: &mut Bests, cost: &mut Cost) {
-        let rays = self.together(packet, packet.valid(), with);
-        for i in each(packet.valid() & !rays) {
+    /// [`Geometry::nearest`] for some rays of a packet, the same to the last bit; `best` has begun.
+    pub fn nearest_packet(&self, packet: &Packet, rays: Mask, with: &Methods, best: &mut Bests, cost: &mut Cost) {
+        let valid = rays & packet.valid();
+        let rays = self.together(packet, valid, with);
+        for i in each(valid & !rays) {
             best.set(i, self.nearest(&packet.ray(i), best.limit[i], with, cost));
         }
         if rays == 0 {

@@ -1,11 +1,11 @@
 //! All packed shapes of one type, behind an interface that knows no type.
 
-use glam::DVec3;
 use snell_components::{
     method::Methods,
     packet::{Hits, Mask, PACKET, Packet, PerRay, each},
     primitive::{Cost, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Ray},
+    surfaces::{Meeting, Surfaces},
 };
 use std::sync::Arc;
 
@@ -68,8 +68,8 @@ pub trait ErasedPool: Send + Sync {
     /// The same but for the texture coordinates, which mean nothing.
     fn surface_without_uv(&self, index: u32, ray: &Ray, hit: Hit) -> Surface;
 
-    /// See [`Primitive::lift`].
-    fn lift(&self, index: u32, ray: &Ray, hit: Hit) -> DVec3;
+    /// The surfaces that rays of a packet met here.
+    fn surfaces(&self, met: &Meeting<'_>, surfaces: &mut Surfaces);
 }
 
 /// A search for the nearest hit.
@@ -104,54 +104,66 @@ impl Best {
     }
 }
 
-/// What one ray of a packet met so far, but for the distance.
-#[derive(Clone, Copy, Debug)]
-struct Found {
-    part: u32,
-    pool: u32,
-    index: u32,
-    /// `NOTHING` before anything was found.
-    object: u32,
-}
-
 /// A search for the nearest hit of each ray of a packet.
 #[derive(Clone, Debug)]
 pub struct Bests {
     /// Nothing beyond this matters: the distance of what was found, if anything was.
     pub limit: PerRay,
-    found: [Found; PACKET],
+    /// Which part of the shape; as what follows, anything where nothing was found.
+    pub part: [u32; PACKET],
+    /// Which pool.
+    pub pool: [u32; PACKET],
+    /// Which shape in the pool.
+    pub index: [u32; PACKET],
+    /// Which object; `NOTHING` before anything was found.
+    object: [u32; PACKET],
     /// Of the shape at hand.
     hits: Hits,
 }
 
 impl Default for Bests {
     fn default() -> Self {
-        let nothing = Found { part: 0, pool: 0, index: 0, object: NOTHING };
-        Self { limit: [f64::INFINITY; PACKET], found: [nothing; PACKET], hits: Hits::default() }
+        let [part, pool, index] = [[0; PACKET]; 3];
+        let limit = [f64::INFINITY; PACKET];
+        Self { limit, part, pool, index, object: [NOTHING; PACKET], hits: Hits::default() }
     }
 }
 
 impl Bests {
-    /// Nothing found yet by the rays up to `len`, up to a distance.
-    pub fn begin(&mut self, len: usize, limit: f64) {
-        self.limit[..len].fill(limit);
-        self.found[..len].iter_mut().for_each(|found| found.object = NOTHING);
+    /// Nothing found yet by some rays, up to a distance.
+    pub fn begin(&mut self, rays: Mask, limit: f64) {
+        for i in each(rays) {
+            (self.limit[i], self.object[i]) = (limit, NOTHING);
+        }
+    }
+
+    /// Those of some rays that found something.
+    #[must_use]
+    pub fn found(&self, rays: Mask) -> Mask {
+        each(rays).filter(|&i| self.object[i] != NOTHING).fold(0, |found, i| found | 1 << i)
+    }
+
+    /// The object that a ray found, if it found any.
+    #[must_use]
+    #[inline]
+    pub fn object(&self, i: usize) -> u32 {
+        self.object[i]
     }
 
     /// What a ray found.
     #[must_use]
     #[inline]
     pub fn nearest(&self, i: usize) -> Option<Nearest> {
-        let Found { part, pool, index, object } = self.found[i];
+        let (part, pool, index, object) = (self.part[i], self.pool[i], self.index[i], self.object[i]);
         (object != NOTHING).then_some(Nearest { hit: Hit { t: self.limit[i], part }, pool, index, object })
     }
 
     /// Takes what a ray found alone.
     pub fn set(&mut self, i: usize, nearest: Option<Nearest>) {
-        self.found[i].object = NOTHING;
+        self.object[i] = NOTHING;
         if let Some(Nearest { hit: Hit { t, part }, pool, index, object }) = nearest {
             self.limit[i] = t;
-            self.found[i] = Found { part, pool, index, object };
+            (self.part[i], self.pool[i], self.index[i], self.object[i]) = (part, pool, index, object);
         }
     }
 }
@@ -230,9 +242,9 @@ impl<P: Primitive> ErasedPool for Pool<P> {
             for i in each(met) {
                 let Hits { t, part } = &best.hits;
                 let (t, part) = (t[i], part[i]);
-                if t < best.limit[i] || object < best.found[i].object {
+                if t < best.limit[i] || object < best.object[i] {
                     best.limit[i] = t;
-                    best.found[i] = Found { part, pool: run.pool, index, object };
+                    (best.part[i], best.pool[i], best.index[i], best.object[i]) = (part, run.pool, index, object);
                 }
             }
         }
@@ -264,7 +276,7 @@ impl<P: Primitive> ErasedPool for Pool<P> {
         P::surface_without_uv(&self.shapes[index as usize], ray, hit)
     }
 
-    fn lift(&self, index: u32, ray: &Ray, hit: Hit) -> DVec3 {
-        P::lift(&self.shapes[index as usize], ray, hit)
+    fn surfaces(&self, met: &Meeting<'_>, surfaces: &mut Surfaces) {
+        P::surface_packet(&self.shapes, met, surfaces);
     }
 }

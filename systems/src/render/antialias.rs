@@ -5,7 +5,8 @@ use super::{
     budget::variance_for_pixels,
     footprint::{Beside, Neighbours},
     observe::Observer,
-    trace::{Brought, Room, Start, light_along},
+    trace::{Brought, Start, light_along},
+    wave::Wave,
 };
 use crate::snapshot::Snapshot;
 use glam::DVec2;
@@ -30,7 +31,7 @@ pub(super) struct Pixels<'a, O> {
     changing: BTreeMap<(u32, u32), bool>,
     /// Rays traced so far.
     traced: u32,
-    room: Box<Room>,
+    wave: Box<Wave>,
     pub(super) brought: Vec<Brought>,
 }
 
@@ -71,7 +72,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
             corners: Corners::default(),
             changing: BTreeMap::new(),
             traced: 0,
-            room: Box::default(),
+            wave: Box::default(),
             brought: vec![],
         }
     }
@@ -125,7 +126,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
 
     /// Adds what rays through some points of the picture bring, at most as many as a packet holds, to what was brought.
     pub(super) fn trace(&mut self, points: impl Iterator<Item = (f64, f64, Key)>, spacing: f64) {
-        let Self { snapshot, methods, counts, observer, room, brought, .. } = self;
+        let Self { snapshot, methods, counts, observer, wave, brought, .. } = self;
         let before = brought.len();
         let Settings { width, height, .. } = snapshot.settings;
         let ray = |x: f64, y: f64| snapshot.view.ray(x, y, width, height);
@@ -134,10 +135,10 @@ impl<'a, O: Observer> Pixels<'a, O> {
                 let beside = Neighbours::start(snapshot, x, y, spacing);
                 Start { ray: ray(x, y), beside, key }
             });
-            light_along(snapshot, starts, methods, room, counts, *observer, brought);
+            light_along(snapshot, starts, methods, wave, counts, *observer, brought);
         } else {
             let starts = points.map(|(x, y, key)| Start { ray: ray(x, y), beside: (), key });
-            light_along(snapshot, starts, methods, room, counts, *observer, brought);
+            light_along(snapshot, starts, methods, wave, counts, *observer, brought);
         }
         let traced = brought.len() - before;
         self.traced += traced as u32;

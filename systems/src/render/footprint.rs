@@ -8,7 +8,7 @@
 //!
 //! Where no texture filters, `()` stands in for the two rays, and nothing of all this is compiled into the walk.
 
-use super::{observe::Way, shade::Point, trace::Branch};
+use super::{observe::Way, onward::Branch, point::Point};
 use crate::{
     accelerate::{Geometry, Nearest},
     snapshot::Snapshot,
@@ -21,6 +21,9 @@ const STEP: f64 = 1.0 / 4096.0;
 
 /// What runs beside a ray.
 pub(super) trait Beside: Copy {
+    /// Whether anything does.
+    const RUNS: bool;
+
     /// What is known where the ray met a surface.
     type Met: Copy;
 
@@ -38,6 +41,8 @@ pub(super) trait Beside: Copy {
 }
 
 impl Beside for () {
+    const RUNS: bool = false;
+
     type Met = ();
 
     fn start(_: &Snapshot, _: f64, _: f64, _: f64) -> Self {}
@@ -55,6 +60,8 @@ impl Beside for () {
 pub(super) type Neighbours = [Option<Ray>; 2];
 
 impl Beside for Neighbours {
+    const RUNS: bool = true;
+
     /// Directions of the two rays, and the surface where they cross its tangent plane.
     type Met = [Option<(DVec3, Surface)>; 2];
 

@@ -4,25 +4,31 @@
 //! order of tiles nor the region can change a bit of it.
 
 mod antialias;
+mod area;
+mod arrive;
 mod block;
 mod budget;
 mod counts;
 mod footprint;
 mod interior;
+mod lamps;
 mod observe;
+mod onward;
 mod optics;
 mod picture;
+mod point;
 mod sampler;
 mod shade;
 mod tile;
 mod trace;
+mod wave;
 
 pub use counts::Counts;
 pub use interior::Interior;
 pub use observe::{Added, Dropped, Forward, Look, Observer, Traced, Way};
+pub(crate) use onward::beyond_depth;
 pub use optics::{fresnel, reflect, refract};
 pub use picture::{Picture, Region};
 pub use sampler::Key;
 pub use tile::{Frame, OnTile, Options, Progress, Stop, Tile, render};
-pub(crate) use trace::beyond_depth;
 pub use trace::{pixel, pixel_observed};
