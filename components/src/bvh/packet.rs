@@ -30,6 +30,10 @@ pub(crate) trait PacketVisitor {
     /// The rays that are not at their end yet.
     fn alive(&self) -> Mask;
 
+    /// Tells the machine that a leaf will probably be visited.
+    #[inline(always)]
+    fn soon<L: Lanes>(&self, _: L, _: Leaf) {}
+
     /// Tests what a leaf holds with the rays that come to it.
     ///
     /// To be `#[inline(always)]`: see [`Job::run`].
@@ -146,6 +150,13 @@ fn walk<L: Lanes, V: PacketVisitor>(
                     come |= (entering >> (8 * lane) & 0xff) << (8 * group);
                 }
                 let key = u64::from(near[lane].to_bits()) << 32 | u64::from(node.child[lane].0);
+                // Nearly all that is put aside will be visited by some ray.
+                let child = node.child[lane];
+                if child.is_leaf() {
+                    visitor.soon(l, child.leaf_run());
+                } else if let Some(node) = nodes.get(child.0 as usize) {
+                    l.prefetch(node);
+                }
                 stack.push(come);
                 stack.push(key);
                 if !V::ANY {

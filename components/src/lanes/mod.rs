@@ -130,6 +130,8 @@ pub trait Lanes: Copy {
     fn f_le(self, a: Self::F, b: Self::F) -> u32;
     /// Where `a <= b`, the minimum of `a` and `c`; elsewhere `c`. Also tells where that is.
     fn f_least_of_le(self, a: Self::F, b: Self::F, c: Self::F) -> (Self::F, u32);
+    /// A hint that something will be read soon.
+    fn prefetch<T>(self, soon: &T);
     /// The lowest eight bits, each in a byte of its own: the lowest in the lowest byte.
     fn spread(self, bits: u32) -> u64;
 

@@ -53,6 +53,8 @@ impl Lanes for Portable {
         (from_fn(|i| if a[i] <= b[i] && a[i] < c[i] { a[i] } else { c[i] }), self.f_le(a, b))
     }
     #[inline(always)]
+    fn prefetch<T>(self, _: &T) {}
+    #[inline(always)]
     fn spread(self, bits: u32) -> u64 {
         (0..8).fold(0, |spread, i| spread | u64::from(bits >> i & 1) << (8 * i))
     }

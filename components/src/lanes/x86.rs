@@ -68,6 +68,9 @@ macro_rules! op {
     };
 }
 
+/// Bytes that come into the caches together.
+const LINE: usize = 64;
+
 /// The operations that both levels have alike.
 macro_rules! common {
     () => {
@@ -98,6 +101,14 @@ macro_rules! common {
             _mm256_or_pd(_mm256_andnot_pd(sign, a), _mm256_and_pd(sign, b))
         });
         op!(d_sqrt(a: __m256d) -> __m256d = _mm256_sqrt_pd(a));
+        #[inline(always)]
+        fn prefetch<T>(self, soon: &T) {
+            for line in 0..(size_of::<T>()).div_ceil(LINE) {
+                let at = core::ptr::from_ref(soon).cast::<i8>().wrapping_add(line * LINE);
+                // SAFETY: a hint reads nothing, wherever it points.
+                unsafe { _mm_prefetch::<_MM_HINT_T0>(at) };
+            }
+        }
         op!(spread(bits: u32) -> u64 = _pdep_u64(u64::from(bits), 0x0101_0101_0101_0101));
         op!(d_signs(a: __m256d) -> u32 = _mm256_movemask_pd(a) as u32);
     };

@@ -163,6 +163,13 @@ impl PacketVisitor for Search<'_> {
     }
 
     #[inline(always)]
+    fn soon<L: Lanes>(&self, lanes: L, leaf: Leaf) {
+        if let Some(block) = self.tree.blocks.get(leaf.first) {
+            lanes.prefetch(block);
+        }
+    }
+
+    #[inline(always)]
     fn visit<L: Lanes>(&mut self, lanes: L, leaf: Leaf, rays: Mask, cost: &mut Cost) {
         cost.primitives += leaf.len as u64 * u64::from(rays.count_ones());
         let block = &self.tree.blocks[leaf.first];
@@ -233,6 +240,13 @@ impl PacketVisitor for AnySearch<'_> {
     #[inline(always)]
     fn alive(&self) -> Mask {
         self.alive
+    }
+
+    #[inline(always)]
+    fn soon<L: Lanes>(&self, lanes: L, leaf: Leaf) {
+        if let Some(block) = self.tree.blocks.get(leaf.first) {
+            lanes.prefetch(block);
+        }
     }
 
     #[inline(always)]
