@@ -217,13 +217,12 @@ impl Material {
         self.effects.last().is_some_and(|effect| !effect.is_light())
     }
 
-    /// What the mirror ray brings, if no other ray goes on.
+    /// The term of the rays that go on, if there is one alone.
     #[must_use]
     #[inline]
-    pub fn mirror_alone(&self) -> Option<Rgb> {
-        match *self.effects {
-            [Effect::Mirror(share)] => Some(share),
-            [.., before, Effect::Mirror(share)] if before.is_light() => Some(share),
+    pub fn alone_goes_on(&self) -> Option<&Effect> {
+        match &*self.effects {
+            [alone] | [.., Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. }, alone] => Some(alone),
             _ => None,
         }
     }

@@ -135,3 +135,9 @@ pub fn differ<L: Lanes>(l: L, a: Four<L>, b: Four<L>) -> u32 {
 pub fn equal<L: Lanes>(l: L, a: L::D, b: L::D) -> u32 {
     l.d_le(a, b) & l.d_le(b, a)
 }
+
+/// Unit vectors of the same directions, which must not be zero.
+#[inline(always)]
+pub fn unit<L: Lanes>(l: L, a: Four<L>) -> Four<L> {
+    times(l, a, l.d_div(l.d_splat(1.0), l.d_sqrt(dot(l, a, a))))
+}

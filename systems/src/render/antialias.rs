@@ -128,16 +128,14 @@ impl<'a, O: Observer> Pixels<'a, O> {
     pub(super) fn trace(&mut self, points: impl Iterator<Item = (f64, f64, Key)>, spacing: f64) {
         let Self { snapshot, methods, counts, observer, wave, brought, .. } = self;
         let before = brought.len();
-        let Settings { width, height, .. } = snapshot.settings;
-        let ray = |x: f64, y: f64| snapshot.view.ray(x, y, width, height);
         if snapshot.materials.any_filtered {
             let starts = points.map(|(x, y, key)| {
                 let beside = Neighbours::start(snapshot, x, y, spacing);
-                Start { ray: ray(x, y), beside, key }
+                Start { x, y, beside, key }
             });
             light_along(snapshot, starts, methods, wave, counts, *observer, brought);
         } else {
-            let starts = points.map(|(x, y, key)| Start { ray: ray(x, y), beside: (), key });
+            let starts = points.map(|(x, y, key)| Start { x, y, beside: (), key });
             light_along(snapshot, starts, methods, wave, counts, *observer, brought);
         }
         let traced = brought.len() - before;

@@ -27,7 +27,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
         if matches!(asks, Effect::Diffuse(_)) {
             weight *= vector_of(&light.tint, i);
         }
-        let interior = self.trees[i].interiors.get(self.wave.inside[i]);
+        let interior = self.interiors.get(self.wave.inside[i]);
         let error = lamp_error(self.snapshot, weight).unwrap_or(sampling.error);
         let one = |sample| {
             let light = lamp.illuminate(start, sample);

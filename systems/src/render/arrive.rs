@@ -2,7 +2,7 @@
 
 use super::{
     footprint::Beside,
-    interior::transmittance,
+    interior::{Crossing, transmittance},
     observe::{Added, Forward, Observer, Traced, Way},
     trace::Walk,
 };
@@ -58,6 +58,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
         wave.turn(found);
 
         let mut met = Met { shaded: found, onward: 0 };
+        wave.bounding = 0;
         if !materials.media.is_empty() {
             for i in each(found) {
                 if !self.is_there(i) {
@@ -81,7 +82,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
 
     /// Takes from the weight of a ray what the bodies on its way swallow.
     fn absorb(&mut self, i: usize) {
-        let interior = self.trees[i].interiors.get(self.wave.inside[i]);
+        let interior = self.interiors.get(self.wave.inside[i]);
         let travelled = self.wave.bests.nearest(i).map_or(f64::INFINITY, |met| met.hit.t);
         let left = transmittance(interior.medium(&self.snapshot.materials), travelled);
         let weight = self.wave.weight_of(i) * left;
@@ -99,21 +100,19 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     /// ray then goes on behind it.
     fn is_there(&mut self, i: usize) -> bool {
         let (materials, wave) = (&self.snapshot.materials, &mut *self.wave);
-        let tree = &mut self.trees[i];
         let object = wave.bests.object(i);
-        tree.sides = None;
         if materials.medium(object).is_none() {
             return true;
         }
-        let interior = tree.interiors.get(wave.inside[i]);
-        let entering = wave.entering >> i & 1 != 0;
-        tree.sides = interior.sides(object, entering, materials);
-        if tree.sides.is_some() {
+        let crossing = self.interiors.cross(wave.inside[i], object, wave.entering >> i & 1 != 0, materials);
+        wave.bounding |= 1 << i;
+        wave.crossing[i] = crossing;
+        let Crossing { sides, beyond, encloses, .. } = *self.interiors.crossing(crossing);
+        if sides.is_some() {
             return true;
         }
-        let across = interior.across(object, entering);
-        wave.enclosed = wave.enclosed & !(1 << i) | Mask::from(!across.is_empty()) << i;
-        wave.inside[i] = tree.interiors.keep(across);
+        wave.inside[i] = beyond;
+        wave.enclosed = wave.enclosed & !(1 << i) | Mask::from(encloses) << i;
         let Ray { direction, .. } = wave.packet.ray(i);
         let ray = Ray { origin: wave.surfaces.get(i).departure(direction, wave.bests.limit[i]), direction };
         wave.packet.set(i, &ray);

@@ -23,15 +23,32 @@ impl Clone for Interior {
     }
 }
 
-/// The interiors of the rays of a tree, by number; that of the camera is number 0.
+/// The interiors of the rays of some trees, by number; that of the camera is number 0.
 pub(super) struct Interiors<'a> {
     camera: &'a Interior,
     others: Vec<Interior>,
+    crossings: Vec<Crossing<'a>>,
 }
+
+/// How rays that go through the same bodies cross the surface of a clear body.
+pub(super) struct Crossing<'a> {
+    inside: u32,
+    object: u32,
+    entering: bool,
+    /// See [`Interior::sides`].
+    pub sides: Option<Sides<'a>>,
+    /// The number of the bodies beyond.
+    pub beyond: u32,
+    /// Whether those are any.
+    pub encloses: bool,
+}
+
+/// So many crossings are looked through for one that is known.
+const KNOWN: usize = 16;
 
 impl<'a> Interiors<'a> {
     pub(super) fn new(camera: &'a Interior) -> Self {
-        Self { camera, others: vec![] }
+        Self { camera, others: vec![], crossings: vec![] }
     }
 
     #[inline]
@@ -39,10 +56,32 @@ impl<'a> Interiors<'a> {
         if number == 0 { self.camera } else { &self.others[number as usize - 1] }
     }
 
-    /// The number of one more.
-    pub(super) fn keep(&mut self, interior: Interior) -> u32 {
-        self.others.push(interior);
-        self.others.len() as u32
+    /// The number of how a ray through some bodies, by their number, crosses the surface of one.
+    #[inline]
+    pub(super) fn cross(&mut self, inside: u32, object: u32, entering: bool, materials: &'a Materials) -> u32 {
+        let first = self.crossings.len().saturating_sub(KNOWN);
+        let known = |c: &Crossing<'_>| c.inside == inside && c.object == object && c.entering == entering;
+        match self.crossings[first..].iter().rposition(known) {
+            Some(n) => (first + n) as u32,
+            None => self.cross_anew(inside, object, entering, materials),
+        }
+    }
+
+    #[cold]
+    fn cross_anew(&mut self, inside: u32, object: u32, entering: bool, materials: &'a Materials) -> u32 {
+        let interior = self.get(inside);
+        let (sides, across) = (interior.sides(object, entering, materials), interior.across(object, entering));
+        let encloses = !across.is_empty();
+        self.others.push(across);
+        let beyond = self.others.len() as u32;
+        self.crossings.push(Crossing { inside, object, entering, sides, beyond, encloses });
+        self.crossings.len() as u32 - 1
+    }
+
+    /// A crossing by its number.
+    #[inline]
+    pub(super) fn crossing(&self, number: u32) -> &Crossing<'a> {
+        &self.crossings[number as usize]
     }
 }
 

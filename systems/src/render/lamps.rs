@@ -3,9 +3,10 @@
 use super::{
     footprint::Beside,
     observe::{Look, Observer},
+    optics,
     shade::asked_of_lamps,
     trace::Walk,
-    wave::{Wave, reflect},
+    wave::Wave,
 };
 use crate::snapshot::{Effect, Lights, Snapshot};
 use glam::{DVec2, DVec3};
@@ -146,7 +147,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
                 let Looks { packet, end, distance, .. } = &self.wave.light.looks;
                 let (ray, end, distance) = (packet.ray(i), end[i], if is_point { 1.0 } else { distance[i] });
                 let point = self.wave.point(i, self.snapshot, self.methods);
-                let interior = self.trees[i].interiors.get(self.wave.inside[i]);
+                let interior = self.interiors.get(self.wave.inside[i]);
                 visible = point.through_clear(&parted.clear, ray, end, distance, interior, self.counts);
             }
             set_vector(&mut self.wave.light.looks.visible, i, visible);
@@ -269,7 +270,7 @@ impl Job for Term<'_> {
                 Effect::Glossy { highlight, exponent, .. } => {
                     let normal = vector::load(l, &surfaces.shading_normal, group);
                     let toward = vector::load(l, &looks.toward, group);
-                    let mirrored = reflect(l, vector::neg(l, toward), normal);
+                    let mirrored = optics::reflect_four(l, vector::neg(l, toward), normal);
                     let aligned = vector::dot(l, mirrored, vector::load(l, &packet.directions, group));
                     // Where the mirrored light points away from the viewer there is no highlight, whatever the exponent.
                     let mut shine = [0.0; 4];

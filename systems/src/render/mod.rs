@@ -19,8 +19,10 @@ mod picture;
 mod point;
 mod sampler;
 mod shade;
+mod split;
 mod tile;
 mod trace;
+mod view_rays;
 mod wave;
 
 pub use counts::Counts;

@@ -1,13 +1,14 @@
 //! Rays that go on from surfaces: mirrored, let through and bent.
 
 use super::{
+    Key,
     footprint::Beside,
     interior::Sides,
     observe::{Added, Dropped, Forward, Observer, Way},
     optics,
     point::{Point, straight_eta},
     trace::{Pending, Walk},
-    wave::{Wave, departure, reflect},
+    wave::{Wave, departure},
 };
 use crate::snapshot::Effect;
 use glam::DVec3;
@@ -28,92 +29,93 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
             if !material.goes_on() {
                 continue;
             }
-            match material.mirror_alone() {
-                Some(share) if !O::WATCHES && !B::RUNS => onward |= self.mirror(rays, share),
-                _ => each(rays).for_each(|i| onward |= Mask::from(self.go_on_alone(i)) << i),
-            }
+            onward |= match material.alone_goes_on() {
+                Some(Effect::Mirror(share)) if !O::WATCHES && !B::RUNS => self.mirror(rays, *share),
+                Some(Effect::Split(part)) if !O::WATCHES && !B::RUNS && self.snapshot.settings.refraction => {
+                    self.split(rays, *part)
+                }
+                _ => each(rays).fold(0, |onward, i| onward | Mask::from(self.go_on_alone(i)) << i),
+            };
         }
         onward
     }
 
     /// Mirrors rays where nothing else goes on.
     fn mirror(&mut self, rays: Mask, share: Rgb) -> Mask {
-        let settings = &self.snapshot.settings;
         lanes::run(Mirror { wave: self.wave, rays, share });
         let mut onward = 0;
         for i in each(rays) {
-            let weight = self.wave.weight_of(i);
             let depth = self.wave.depth[i];
-            if depth >= settings.depth {
-                self.counts.too_deep += 1;
-                self.wave.add(i, weight * beyond_depth(settings.background));
-            } else if self.trees[i].cut.drops(weight, settings.depth - depth - 1) {
-                self.counts.cut += 1;
-            } else {
+            if self.drops(i, self.wave.weight_of(i), depth).is_none() {
                 self.counts.mirror += 1;
                 self.wave.depth[i] = depth + 1;
-                self.wave.key[i] = self.wave.key[i].child(u32::MAX);
+                self.wave.key[i] = self.child(self.wave.key[i], 0);
                 onward |= 1 << i;
             }
         }
         onward
     }
 
-    /// Puts the rays forward that go on from where one ray met a surface; tells whether there are any.
-    fn go_on_alone(&mut self, i: usize) -> bool {
+    /// Why a ray of some weight, which would go on from a surface at some depth, is not followed, if it is not; adds what
+    /// it is taken to bring.
+    #[inline]
+    pub(super) fn drops(&mut self, i: usize, weight: Rgb, depth: u32) -> Option<Dropped> {
         let settings = &self.snapshot.settings;
-        let (materials, wave) = (&self.snapshot.materials, &mut *self.wave);
+        if depth >= settings.depth {
+            self.counts.too_deep += 1;
+            self.wave.add(i, weight * beyond_depth(settings.background));
+            return Some(Dropped::TooDeep);
+        }
+        let cut = self.trees[i].cut.drops(weight, settings.depth - depth - 1);
+        self.counts.cut += u64::from(cut);
+        cut.then_some(Dropped::Cut)
+    }
+
+    /// The key of the `n`th ray that goes on; matters only where lamps are sampled.
+    #[inline]
+    pub(super) fn child(&self, key: Key, n: u32) -> Key {
+        // Lights count from zero up, branches from the top down.
+        if self.samples_lamps { key.child(u32::MAX - n) } else { key }
+    }
+
+    /// Puts the rays forward that go on from where one ray met a surface; tells whether any is followed.
+    pub(super) fn go_on_alone(&mut self, i: usize) -> bool {
+        let wave = &*self.wave;
         let point = wave.point(i, self.snapshot, self.methods);
-        let (weight, depth, inside, wavelength) =
-            (wave.weight_of(i), wave.depth[i], wave.inside[i], wave.wavelength[i]);
-        let object = wave.bests.object(i);
-        let branches = point.branches(self.trees[i].sides, wavelength);
-        let mut beyond = None;
+        let (weight, depth, wavelength) = (wave.weight_of(i), wave.depth[i], wave.wavelength[i]);
+        let before = wave.inside[i];
+        let crossing = (wave.bounding >> i & 1 != 0).then(|| self.interiors.crossing(wave.crossing[i]));
+        let (sides, beyond) = crossing.map_or((None, before), |crossing| (crossing.sides, crossing.beyond));
+        let branches = point.branches(sides, wavelength);
         let mut top = None;
         for (n, branch) in branches.iter().enumerate().rev() {
-            let tree = &mut self.trees[i];
             let weight = weight * branch.share;
             let origin = point.surface.departure(branch.direction, point.travelled);
             let ray = Ray { origin, direction: branch.direction };
             let Branch { way, share, wavelength, .. } = *branch;
             let forward = Forward { way, ray: &ray, share, weight, wavelength };
-            if depth >= settings.depth {
-                self.counts.too_deep += 1;
-                let light = beyond_depth(settings.background);
-                wave.add(i, weight * light);
-                self.observer.dropped(&forward, Dropped::TooDeep);
-                self.observer.added(Added::BeyondDepth, weight, light);
-            } else if tree.cut.drops(weight, settings.depth - depth - 1) {
-                self.counts.cut += 1;
-                self.observer.dropped(&forward, Dropped::Cut);
-            } else {
-                self.observer.put_forward(&forward);
-                let inside = if way == Way::Mirrored {
-                    self.counts.mirror += 1;
-                    inside
-                } else {
-                    self.counts.transmitted += 1;
-                    match beyond {
-                        _ if materials.medium(object).is_none() => inside,
-                        // The same for all lines of a spectrum.
-                        Some(beyond) => beyond,
-                        None => {
-                            let across = tree.interiors.get(inside).across(object, point.entering);
-                            *beyond.insert(tree.interiors.keep(across))
-                        }
-                    }
-                };
-                // Lights count from zero up, branches from the top down.
-                let key = point.key.child(u32::MAX - n as u32);
-                let beside = match &tree.met {
-                    Some(met) => B::go_on(met, &point, branch),
-                    None => tree.beside,
-                };
-                let next = Pending { ray, beside, weight, depth: depth + 1, inside, wavelength, key };
-                if let Some(before) = top.replace(next) {
-                    tree.below.push(before);
-                    self.waiting |= 1 << i;
+            if let Some(why) = self.drops(i, weight, depth) {
+                self.observer.dropped(&forward, why);
+                if why == Dropped::TooDeep {
+                    let light = beyond_depth(self.snapshot.settings.background);
+                    self.observer.added(Added::BeyondDepth, weight, light);
                 }
+                continue;
+            }
+            self.observer.put_forward(&forward);
+            let inside = if way == Way::Mirrored {
+                self.counts.mirror += 1;
+                before
+            } else {
+                self.counts.transmitted += 1;
+                beyond
+            };
+            let key = self.child(point.key, n as u32);
+            let tree = &self.trees[i];
+            let beside = tree.met.as_ref().map_or(tree.beside, |met| B::go_on(met, &point, branch));
+            let next = Pending { ray, beside, weight, depth: depth + 1, inside, wavelength, key };
+            if let Some(before) = top.replace(next) {
+                self.put_off(i, before);
             }
         }
         let Some(top) = top else { return false };
@@ -142,10 +144,10 @@ impl Job for Mirror<'_> {
             let normal = vector::load(l, &surfaces.normal, group);
             let shading = vector::load(l, &surfaces.shading_normal, group);
             let toward = l.d_lt(vector::dot(l, shading, direction), zero);
-            let mut mirrored = reflect(l, direction, vector::select(l, toward, shading, normal));
+            let mut mirrored = optics::reflect_four(l, direction, vector::select(l, toward, shading, normal));
             let above = l.d_lt(zero, vector::dot(l, mirrored, normal));
             if above & which != which {
-                mirrored = vector::select(l, above, mirrored, reflect(l, direction, normal));
+                mirrored = vector::select(l, above, mirrored, optics::reflect_four(l, direction, normal));
             }
             let origin = departure(l, surfaces, &bests.limit, mirrored, group);
             vector::store(l, origin, which, &mut packet.origins, group);

@@ -1,6 +1,7 @@
 //! Mirror, Snell and Fresnel.
 
 use glam::DVec3;
+use snell_components::lanes::{Lanes, vector};
 
 /// The direction mirrored at a surface with unit normal; as long as `direction`.
 #[must_use]
@@ -54,6 +55,55 @@ pub fn fresnel(cos_in: f64, eta: f64) -> f64 {
     let s = (eta * cos_in - cos_out) / (eta * cos_in + cos_out);
     let p = (eta * cos_out - cos_in) / (eta * cos_out + cos_in);
     (0.5 * (s * s + p * p)).min(1.0)
+}
+
+/// [`reflect`] of four rays.
+#[inline(always)]
+pub(super) fn reflect_four<L: Lanes>(l: L, direction: vector::Four<L>, normal: vector::Four<L>) -> vector::Four<L> {
+    let twice = l.d_mul(l.d_splat(2.0), vector::dot(l, direction, normal));
+    vector::sub(l, direction, vector::times(l, normal, twice))
+}
+
+/// [`refract`] of four rays: which are refracted, and where to.
+#[inline(always)]
+pub(super) fn refract_four<L: Lanes>(
+    l: L,
+    direction: vector::Four<L>,
+    normal: vector::Four<L>,
+    eta: L::D,
+) -> (u32, vector::Four<L>) {
+    let (zero, one) = (l.d_splat(0.0), l.d_splat(1.0));
+    let same = vector::equal(l, eta, one);
+    let cos_in = vector::minus(l, vector::dot(l, direction, normal));
+    let square = cos_out_squared_of_four(l, cos_in, eta);
+    let beyond = l.d_lt(square, zero) & !same;
+    let along = vector::times(l, direction, eta);
+    let across = vector::times(l, normal, l.d_sub(l.d_mul(eta, cos_in), l.d_sqrt(square)));
+    let refracted = vector::unit(l, vector::add(l, along, across));
+    (!beyond & 0b1111, if same == 0 { refracted } else { vector::select(l, same, direction, refracted) })
+}
+
+#[inline(always)]
+fn cos_out_squared_of_four<L: Lanes>(l: L, cos_in: L::D, eta: L::D) -> L::D {
+    let one = l.d_splat(1.0);
+    let sin_in_squared = l.d_sub(one, l.d_mul(cos_in, cos_in));
+    l.d_sub(one, l.d_mul(l.d_mul(eta, eta), sin_in_squared))
+}
+
+/// [`fresnel`] of four rays.
+#[inline(always)]
+pub(super) fn fresnel_four<L: Lanes>(l: L, cos_in: L::D, eta: L::D) -> L::D {
+    let (zero, one) = (l.d_splat(0.0), l.d_splat(1.0));
+    let cos_in = l.d_if_lt(cos_in, zero, zero, cos_in);
+    let cos_in = l.d_if_lt(one, cos_in, one, cos_in);
+    let square = cos_out_squared_of_four(l, cos_in, eta);
+    let cos_out = l.d_sqrt(square);
+    let (thin_in, thin_out) = (l.d_mul(eta, cos_in), l.d_mul(eta, cos_out));
+    let s = l.d_div(l.d_sub(thin_in, cos_out), l.d_add(thin_in, cos_out));
+    let p = l.d_div(l.d_sub(thin_out, cos_in), l.d_add(thin_out, cos_in));
+    let mean = l.d_mul(l.d_splat(0.5), l.d_add(l.d_mul(s, s), l.d_mul(p, p)));
+    let reflected = l.d_if_lt(square, zero, one, l.d_if_lt(mean, one, mean, one));
+    l.d_select(vector::equal(l, eta, one), zero, reflected)
 }
 
 #[cfg(test)]

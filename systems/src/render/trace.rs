@@ -5,17 +5,20 @@ use super::{
     antialias::Pixels,
     budget::Cut,
     footprint::Beside,
-    interior::{Interiors, Sides},
+    interior::Interiors,
     observe::{Forward, Observer, Way},
+    view_rays::ViewRays,
     wave::Wave,
 };
 use crate::snapshot::Snapshot;
 use smallvec::SmallVec;
 use snell_components::{
     color::Rgb,
+    lanes,
     method::Methods,
-    packet::{Mask, each, set_vector, vector_of},
+    packet::{Mask, PACKET, each, set_vector, vector_of},
     primitive::Cost,
+    settings::Settings,
     space::Ray,
 };
 
@@ -63,9 +66,10 @@ pub(super) struct Brought {
     pub cut_bound: f64,
 }
 
-/// A ray through the picture.
+/// A ray through a point of the picture, in pixels from its upper left corner.
 pub(super) struct Start<B> {
-    pub ray: Ray,
+    pub x: f64,
+    pub y: f64,
     pub beside: B,
     pub key: Key,
 }
@@ -76,23 +80,30 @@ pub(super) struct Start<B> {
 /// contribution is added to one sum in that order: no depth overflows, and the sum is the same every time.
 pub(super) struct Tree<'a, B: Beside> {
     pub cut: Cut<'a>,
-    pub interiors: Interiors<'a>,
     /// What runs beside the ray in the wave, and what is known of it at the surface met.
     pub beside: B,
     pub met: Option<B::Met>,
-    /// What lies on both sides of the surface met; none if it bounds no medium.
-    pub sides: Option<Sides<'a>>,
-    /// Rays after the one in the wave, the next one last.
-    pub below: Vec<Pending<B>>,
+    /// The next ray after the one in the wave, by its place in [`Walk::below`], or [`NONE`].
+    next: u32,
 }
+
+/// The place of no ray.
+const NONE: u32 = u32::MAX;
 
 /// Some trees that are walked side by side.
 pub(super) struct Walk<'a, 'w, B: Beside, O> {
     pub snapshot: &'a Snapshot,
     pub methods: &'a Methods,
     pub trees: SmallVec<[Tree<'a, B>; 1]>,
-    /// Trees that have rays below the one in the wave.
-    pub waiting: Mask,
+    pub interiors: Interiors<'a>,
+    /// Rays put off, each with the place of the one after it in its tree.
+    below: Vec<(Pending<B>, u32)>,
+    /// The first place that is free again, and from there as in a tree.
+    free: u32,
+    /// The trees that have rays below.
+    waiting: Mask,
+    /// Whether any lamp is sampled.
+    pub samples_lamps: bool,
     pub wave: &'w mut Wave,
     pub counts: &'w mut Counts,
     pub observer: &'w mut O,
@@ -112,7 +123,11 @@ pub(super) fn light_along<B: Beside, O: Observer>(
     brought: &mut Vec<Brought>,
 ) {
     let trees = SmallVec::with_capacity(starts.size_hint().0);
-    let mut walk = Walk { snapshot, methods, trees, waiting: 0, wave, counts, observer };
+    let interiors = Interiors::new(&snapshot.inside);
+    let (below, free, waiting) = (vec![], NONE, 0);
+    let samples_lamps = snapshot.lights.sampling.iter().any(Option::is_some);
+    let mut walk =
+        Walk { snapshot, methods, trees, interiors, below, free, waiting, samples_lamps, wave, counts, observer };
     let mut rays = walk.begin(starts);
     while rays != 0 {
         walk.search(rays);
@@ -135,20 +150,22 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     /// Takes the first ray of each tree; tells which there are.
     fn begin(&mut self, starts: impl Iterator<Item = Start<B>>) -> Mask {
         let Self { snapshot, trees, wave, observer, .. } = self;
+        let mut places = [[0.0; PACKET]; 2];
         let mut rays = 0;
-        for (i, Start { ray, beside, key }) in starts.enumerate() {
-            let (way, weight) = (Way::Camera, Rgb::ONE);
-            observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
-            trees.push(Tree {
-                cut: Cut::of(snapshot),
-                interiors: Interiors::new(&snapshot.inside),
-                beside,
-                met: None,
-                sides: None,
-                below: vec![],
-            });
-            wave.begin(i, &ray, key);
+        for (i, Start { x, y, beside, key }) in starts.enumerate() {
+            (places[0][i], places[1][i]) = (x, y);
+            trees.push(Tree { cut: Cut::of(snapshot), beside, met: None, next: NONE });
+            wave.begin(i, key);
             rays |= 1 << i;
+        }
+        let Settings { width, height, .. } = snapshot.settings;
+        lanes::run(ViewRays { wave, rays, places: &places, view: &snapshot.view, size: (width, height) });
+        wave.packet.check(rays);
+        if O::WATCHES {
+            for i in each(rays) {
+                let (way, ray, weight) = (Way::Camera, wave.packet.ray(i), Rgb::ONE);
+                observer.put_forward(&Forward { way, ray: &ray, share: weight, weight, wavelength: None });
+            }
         }
         wave.enclosed = if snapshot.inside.is_empty() { 0 } else { rays };
         rays
@@ -169,24 +186,40 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
         self.counts.add(cost);
     }
 
+    /// Puts a ray of a tree off until those put forward later were traced.
+    pub(super) fn put_off(&mut self, i: usize, ray: Pending<B>) {
+        let next = &mut self.trees[i].next;
+        let kept = (ray, *next);
+        if let Some(place) = self.below.get_mut(self.free as usize) {
+            (*next, self.free) = (self.free, place.1);
+            *place = kept;
+        } else {
+            *next = self.below.len() as u32;
+            self.below.push(kept);
+        }
+        self.waiting |= 1 << i;
+    }
+
     /// Takes the next ray of a tree into the wave.
     fn take_next(&mut self, i: usize) {
-        if let Some(next) = self.trees[i].below.pop() {
-            self.put(i, next);
-        }
-        if self.trees[i].below.is_empty() {
+        let place = self.trees[i].next;
+        let (ray, after) = &mut self.below[place as usize];
+        let (ray, after) = (*ray, core::mem::replace(after, self.free));
+        (self.free, self.trees[i].next) = (place, after);
+        if after == NONE {
             self.waiting &= !(1 << i);
         }
+        self.put(i, ray);
     }
 
     /// Puts a ray of a tree into the wave.
     pub(super) fn put(&mut self, i: usize, ray: Pending<B>) {
         let Pending { ray, beside, weight, depth, inside, wavelength, key } = ray;
-        let (tree, wave) = (&mut self.trees[i], &mut *self.wave);
-        tree.beside = beside;
+        let wave = &mut *self.wave;
+        self.trees[i].beside = beside;
         wave.packet.set(i, &ray);
         set_vector(&mut wave.weight, i, weight);
         (wave.depth[i], wave.inside[i], wave.wavelength[i], wave.key[i]) = (depth, inside, wavelength, key);
-        wave.enclosed = wave.enclosed & !(1 << i) | Mask::from(!tree.interiors.get(inside).is_empty()) << i;
+        wave.enclosed = wave.enclosed & !(1 << i) | Mask::from(!self.interiors.get(inside).is_empty()) << i;
     }
 }

@@ -1,6 +1,6 @@
 //! The rays of some trees at one step of their walk, as a structure of arrays.
 
-use super::{Key, point::Point, shade::Light};
+use super::{Key, point::Point, shade::Light, split::Split};
 use crate::{accelerate::Bests, snapshot::Snapshot};
 use smallvec::SmallVec;
 use snell_components::{
@@ -9,7 +9,6 @@ use snell_components::{
     method::Methods,
     packet::{Mask, PACKET, Packet, PerRay, Vectors, each, four, groups, set_vector, vector_of},
     primitive::OFFSET_ULPS,
-    space::Ray,
     surfaces::Surfaces,
 };
 
@@ -37,12 +36,18 @@ pub(super) struct Wave {
     pub material: [u32; PACKET],
     /// Those that met a surface from outside.
     pub entering: Mask,
+    /// Those whose surface bounds a medium.
+    pub bounding: Mask,
+    /// The numbers of how those cross it.
+    pub crossing: [u32; PACKET],
     /// The light of each tree, as far as it is known.
     pub sum: Vectors,
     /// The object that the first ray of each tree met.
     pub first: [Option<u32>; PACKET],
     /// The light at the surfaces.
     pub light: Light,
+    /// What becomes of rays at clear surfaces.
+    pub split: Split,
 }
 
 impl Default for Wave {
@@ -60,17 +65,19 @@ impl Default for Wave {
             key: [Key::of_pixel(0, 0, 0); PACKET],
             material: [0; PACKET],
             entering: 0,
+            bounding: 0,
+            crossing: [0; PACKET],
             sum: none,
             first: [None; PACKET],
             light: Light::default(),
+            split: Split::default(),
         }
     }
 }
 
 impl Wave {
-    /// Takes the first ray of a tree.
-    pub(super) fn begin(&mut self, i: usize, ray: &Ray, key: Key) {
-        self.packet.set(i, ray);
+    /// Begins a tree, but for the ray.
+    pub(super) fn begin(&mut self, i: usize, key: Key) {
         set_vector(&mut self.weight, i, Rgb::ONE);
         set_vector(&mut self.sum, i, Rgb::ZERO);
         (self.depth[i], self.inside[i], self.wavelength[i], self.key[i], self.first[i]) = (0, 0, None, key, None);
@@ -192,11 +199,4 @@ pub(super) fn departure<L: Lanes>(
     let below = vector::dot(l, normal, direction);
     let step = l.d_if_lt(below, l.d_splat(0.0), vector::minus(l, step), step);
     vector::add(l, point, vector::times(l, normal, step))
-}
-
-/// [`super::optics::reflect`] of four rays.
-#[inline(always)]
-pub(super) fn reflect<L: Lanes>(l: L, direction: vector::Four<L>, normal: vector::Four<L>) -> vector::Four<L> {
-    let twice = l.d_mul(l.d_splat(2.0), vector::dot(l, direction, normal));
-    vector::sub(l, direction, vector::times(l, normal, twice))
 }
