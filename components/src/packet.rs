@@ -151,18 +151,23 @@ impl Job for Valid<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> Mask {
         let Self(packet, rays) = self;
-        let zero = l.d_splat(0.0);
         let mut valid = 0;
         for (group, which) in groups(rays) {
             let origin = vector::load(l, &packet.origins, group);
             let direction = vector::load(l, &packet.directions, group);
-            let nothing = vector::add(l, vector::times(l, origin, zero), vector::times(l, direction, zero));
-            let sum = l.d_add(l.d_add(nothing[0], nothing[1]), nothing[2]);
-            let somewhere = l.d_lt(zero, vector::reach(l, direction));
-            valid |= Mask::from(vector::equal(l, sum, zero) & somewhere & which) << (4 * group);
+            valid |= Mask::from(valid_of_four(l, origin, direction) & which) << (4 * group);
         }
         valid
     }
+}
+
+/// [`Ray::is_valid`] of four rays.
+#[inline(always)]
+pub(crate) fn valid_of_four<L: Lanes>(l: L, origins: vector::Four<L>, directions: vector::Four<L>) -> u32 {
+    let zero = l.d_splat(0.0);
+    let nothing = vector::add(l, vector::times(l, origins, zero), vector::times(l, directions, zero));
+    let sum = l.d_add(l.d_add(nothing[0], nothing[1]), nothing[2]);
+    vector::equal(l, sum, zero) & l.d_lt(zero, vector::reach(l, directions))
 }
 
 /// Four numbers, from four times `group` on.

@@ -1,7 +1,11 @@
 //! A ray prepared for tests of boxes, which err on the safe side only.
 
 use super::Node;
-use crate::{lanes::Lanes, space::Ray};
+use crate::{
+    lanes::{Lanes, vector},
+    packet::{Mask, PACKET},
+    space::Ray,
+};
 use glam::DVec3;
 
 /// Relative slack on distances: four roundings of `f32` on either side, of which three occur.
@@ -16,89 +20,117 @@ const ORIGIN_ULPS: f64 = 64.0;
 const ULP32: f64 = f32::EPSILON as f64;
 const TINY32: f64 = f32::from_bits(1) as f64;
 
-/// A ray prepared for box tests in `f32` that err on the safe side only.
+/// A ray prepared for box tests in `f32` that err on the safe side only: origins and inverse directions for near planes,
+/// then for far ones.
 ///
 /// The distance to a plane is `(plane − origin) · inverse`. The origin and the inverse direction are moved before they
 /// are rounded to `f32`, the way that makes near distances smaller and far ones larger; the two operations and the
 /// rounding then add at most three roundings, which [`SLACK`] outweighs. An inverse that makes near distances smaller
 /// stays finite, one that makes far distances larger is never zero.
-#[derive(Clone, Copy)]
-pub(super) struct Planes {
-    /// Origins and inverse directions for near planes.
-    near: [[f32; 3]; 2],
-    /// Origins and inverse directions for far planes.
-    far: [[f32; 3]; 2],
-    /// Which of a node's planes are the near ones; the far ones are the others.
-    near_planes: [u32; 3],
+///
+/// Four coordinates on lanes, of one ray or of four; `reach` is the largest of a ray's origin.
+#[inline(always)]
+fn planes<L: Lanes>(l: L, origin: L::D, direction: L::D, reach: L::D) -> [[f32; 4]; 4] {
+    let margin = l.d_add(l.d_mul(l.d_splat(ORIGIN_ULPS * f64::EPSILON), reach), l.d_splat(TINY32));
+    let spread = l.d_add(l.d_mul(l.d_abs(origin), l.d_splat(ULP32)), margin);
+    let ahead = l.d_with_sign(spread, direction);
+    let near = l.d_narrow(l.d_add(origin, ahead));
+    let far = l.d_narrow(l.d_sub(origin, ahead));
+    let inverse = l.d_div(l.d_splat(1.0), direction);
+    let (most, least) = (l.d_splat(f64::from(f32::MAX)), l.d_splat(f64::from(f32::MIN)));
+    let shrunk = l.d_mul(inverse, l.d_splat(1.0 - SLACK));
+    let shrunk = l.d_narrow(l.d_max(l.d_min(shrunk, most), least));
+    let tiny = l.d_with_sign(l.d_splat(TINY32), inverse);
+    let grown = l.d_narrow(l.d_add(l.d_mul(inverse, l.d_splat(1.0 + SLACK)), tiny));
+    [near, shrunk, far, grown]
 }
 
-impl Planes {
-    /// Of no ray.
-    pub(super) const NONE: Self = Self { near: [[0.0; 3]; 2], far: [[0.0; 3]; 2], near_planes: [0, 1, 2] };
+/// Rays prepared for box tests; see [`planes`].
+pub(crate) struct BoxRays {
+    /// By axis: origins and inverse directions for near planes, then for far ones.
+    planes: [[[f32; PACKET]; 4]; 3],
+    /// The rays that run backward along each axis.
+    negative: [Mask; 3],
+}
 
-    /// The ray must not start [beyond boxes](is_beyond_boxes).
+impl BoxRays {
     #[inline(always)]
-    pub(super) fn new<L: Lanes>(lanes: L, ray: &Ray) -> Self {
+    pub(crate) fn new() -> Self {
+        Self { planes: [[[0.0; PACKET]; 4]; 3], negative: [0; 3] }
+    }
+
+    /// Prepares four rays, which must not start [beyond boxes](is_beyond_boxes); once.
+    #[inline(always)]
+    pub(crate) fn set<L: Lanes>(
+        &mut self,
+        lanes: L,
+        group: usize,
+        origins: vector::Four<L>,
+        directions: vector::Four<L>,
+    ) {
         let l = lanes;
-        let origin = l.d_load(&padded(ray.origin));
-        let direction = l.d_load(&padded(ray.direction));
-        let reach = ray.origin.abs();
-        let reach = larger(larger(reach.x, reach.y), reach.z);
-        let margin = l.d_splat(ORIGIN_ULPS * f64::EPSILON * reach + TINY32);
-        let spread = l.d_add(l.d_mul(l.d_abs(origin), l.d_splat(ULP32)), margin);
-        let ahead = l.d_with_sign(spread, direction);
-        let near = l.d_narrow(l.d_add(origin, ahead));
-        let far = l.d_narrow(l.d_sub(origin, ahead));
-        let inverse = l.d_div(l.d_splat(1.0), direction);
-        let (most, least) = (l.d_splat(f64::from(f32::MAX)), l.d_splat(f64::from(f32::MIN)));
-        let shrunk = l.d_mul(inverse, l.d_splat(1.0 - SLACK));
-        let shrunk = l.d_narrow(l.d_max(l.d_min(shrunk, most), least));
-        let tiny = l.d_with_sign(l.d_splat(TINY32), inverse);
-        let grown = l.d_narrow(l.d_add(l.d_mul(inverse, l.d_splat(1.0 + SLACK)), tiny));
-        // The sign bit, so that −0 and +0 lead to the same planes as the inverse they make.
-        let negative = l.d_signs(direction);
-        Self {
-            near: [[near[0], near[1], near[2]], [shrunk[0], shrunk[1], shrunk[2]]],
-            far: [[far[0], far[1], far[2]], [grown[0], grown[1], grown[2]]],
-            near_planes: [3 * (negative & 1), 1 + 3 * (negative >> 1 & 1), 2 + 3 * (negative >> 2 & 1)],
+        let reach = vector::reach(l, origins);
+        for axis in 0..3 {
+            let planes = planes(l, origins[axis], directions[axis], reach);
+            for (to, from) in self.planes[axis].iter_mut().zip(planes) {
+                to.as_chunks_mut().0[group] = from;
+            }
+            self.negative[axis] |= Mask::from(l.d_signs(directions[axis])) << (4 * group);
         }
     }
 }
 
-/// [`Planes`] with each number in all lanes.
+/// A ray prepared for box tests, with each number in all lanes.
 pub(super) struct BoxRay<L: Lanes> {
     near: [(L::F, L::F); 3],
     far: [(L::F, L::F); 3],
+    /// Which of a node's planes are the near ones; the far ones are the others.
     near_planes: [usize; 3],
     far_planes: [usize; 3],
 }
 
 impl<L: Lanes> BoxRay<L> {
+    /// From the numbers of [`planes`] by axis, and whether the ray runs backward along each.
     #[inline(always)]
-    pub(super) fn of(lanes: L, planes: &Planes) -> Self {
-        let l = lanes;
-        let Planes { near, far, near_planes: [x, y, z] } = planes;
-        let (x, y, z) = (*x as usize, *y as usize, *z as usize);
+    fn of(l: L, [x, y, z]: [[f32; 4]; 3], negative: [usize; 3]) -> Self {
+        let [a, b, c] = negative;
         Self {
             near: [
-                (l.f_splat(near[0][0]), l.f_splat(near[1][0])),
-                (l.f_splat(near[0][1]), l.f_splat(near[1][1])),
-                (l.f_splat(near[0][2]), l.f_splat(near[1][2])),
+                (l.f_splat(x[0]), l.f_splat(x[1])),
+                (l.f_splat(y[0]), l.f_splat(y[1])),
+                (l.f_splat(z[0]), l.f_splat(z[1])),
             ],
             far: [
-                (l.f_splat(far[0][0]), l.f_splat(far[1][0])),
-                (l.f_splat(far[0][1]), l.f_splat(far[1][1])),
-                (l.f_splat(far[0][2]), l.f_splat(far[1][2])),
+                (l.f_splat(x[2]), l.f_splat(x[3])),
+                (l.f_splat(y[2]), l.f_splat(y[3])),
+                (l.f_splat(z[2]), l.f_splat(z[3])),
             ],
-            near_planes: [x, y, z],
-            far_planes: [3 - x, 5 - y, 7 - z],
+            near_planes: [3 * a, 1 + 3 * b, 2 + 3 * c],
+            far_planes: [3 - 3 * a, 4 - 3 * b, 5 - 3 * c],
         }
     }
 
     /// The ray must not start [beyond boxes](is_beyond_boxes).
     #[inline(always)]
     pub(super) fn new(lanes: L, ray: &Ray) -> Self {
-        Self::of(lanes, &Planes::new(lanes, ray))
+        let l = lanes;
+        let direction = l.d_load(&padded(ray.direction));
+        let reach = ray.origin.abs();
+        let reach = larger(larger(reach.x, reach.y), reach.z);
+        let [near, shrunk, far, grown] = planes(l, l.d_load(&padded(ray.origin)), direction, l.d_splat(reach));
+        let along = |i: usize| [near[i], shrunk[i], far[i], grown[i]];
+        // The sign bit, so that −0 and +0 lead to the same planes as the inverse they make.
+        let signs = l.d_signs(direction) as usize;
+        Self::of(l, [along(0), along(1), along(2)], [signs & 1, signs >> 1 & 1, signs >> 2 & 1])
+    }
+
+    /// One of the rays of a packet.
+    #[inline(always)]
+    pub(super) fn one_of(lanes: L, rays: &BoxRays, i: usize) -> Self {
+        let BoxRays { planes: [x, y, z], negative: [a, b, c] } = rays;
+        let along = |of: &[[f32; PACKET]; 4]| [of[0][i], of[1][i], of[2][i], of[3][i]];
+        let bit = |of: &Mask| (of >> i & 1) as usize;
+        Self::of(lanes, [along(x), along(y), along(z)], [bit(a), bit(b), bit(c)])
     }
 
     /// Distances at which the ray enters the children of a node, and which children it enters within `limit`.
@@ -145,11 +177,11 @@ pub(crate) fn above(t: f64) -> f32 {
 }
 
 /// The largest coordinate from which differences to boxes stay within the range of `f32`.
-pub(super) const FARTHEST: f64 = 0.25 * f32::MAX as f64;
+pub(crate) const FARTHEST: f64 = 0.25 * f32::MAX as f64;
 
 /// Whether a ray starts where the differences to boxes leave the range of `f32`: what they say then is worth nothing.
 #[inline(always)]
-pub(crate) fn is_beyond_boxes(origin: DVec3) -> bool {
+pub(super) fn is_beyond_boxes(origin: DVec3) -> bool {
     let reach = origin.abs();
     larger(larger(reach.x, reach.y), reach.z) > FARTHEST
 }

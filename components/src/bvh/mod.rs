@@ -18,10 +18,10 @@ use crate::{math, space::Bounds};
 use glam::DVec3;
 
 pub(crate) use blocks::{BLOCK, Blocks};
-pub(crate) use box_ray::{above, is_beyond_boxes};
+pub(crate) use box_ray::{BoxRays, FARTHEST, above};
 pub use packet::fits_boxes;
-pub(crate) use packet::{BoxRays, Limits, PacketVisitor};
-pub(crate) use reach::{reaches, surely_reaches};
+pub(crate) use packet::{Limits, PacketVisitor};
+pub(crate) use reach::{four_surely_reach, reaches, surely_reaches};
 pub(crate) use traverse::{Leaf, Visitor};
 
 /// Children of a node.

@@ -5,14 +5,13 @@
 
 use super::{
     Blocks, Bvh, Child, Node, WIDTH,
-    box_ray::{BoxRay, FARTHEST, Planes, above},
+    box_ray::{BoxRay, BoxRays, FARTHEST, above},
     traverse::Leaf,
 };
 use crate::{
-    lanes::{self, Job, Lanes, Room, Stack},
+    lanes::{self, Job, Lanes, Room, Stack, vector},
     packet::{self, Mask, PACKET, Packet, PerRay},
     primitive::Cost,
-    space::Ray,
 };
 use core::ops::Range;
 
@@ -66,22 +65,6 @@ impl Job for Fitting<'_> {
     }
 }
 
-/// Rays prepared for box tests.
-pub(crate) struct BoxRays([Planes; PACKET]);
-
-impl BoxRays {
-    #[inline(always)]
-    pub(crate) fn new() -> Self {
-        Self([Planes::NONE; PACKET])
-    }
-
-    /// Prepares one ray, which must not start [beyond boxes](super::is_beyond_boxes).
-    #[inline(always)]
-    pub(crate) fn set<L: Lanes>(&mut self, lanes: L, i: usize, ray: &Ray) {
-        self.0[i] = Planes::new(lanes, ray);
-    }
-}
-
 /// Two numbers for each child put aside: see [`super::Bvh::MAX_DEPTH`].
 const ROOM: usize = 2 * ((WIDTH - 1) * Bvh::MAX_DEPTH + 1);
 
@@ -132,7 +115,7 @@ fn walk<L: Lanes, V: PacketVisitor>(
                     let bit = rest.trailing_zeros();
                     rest &= rest - 1;
                     let i = 8 * group + bit as usize;
-                    let (near, far) = BoxRay::of(l, &boxes.0[i]).distances(l, node, limits[i]);
+                    let (near, far) = BoxRay::one_of(l, boxes, i).distances(l, node, limits[i]);
                     let (least, mask) = l.f_least_of_le(near, far, distances);
                     distances = least;
                     entered |= mask;
@@ -241,8 +224,10 @@ impl<F: FnMut(Range<usize>, Mask, &mut Limits, &mut Cost) -> Mask, const ANY: bo
     #[inline(always)]
     fn run<L: Lanes>(mut self, lanes: L) {
         let mut boxes = BoxRays::new();
-        for i in packet::each(self.rays) {
-            boxes.set(lanes, i, &self.packet.ray(i));
+        let l = lanes;
+        for (group, _) in packet::groups(self.rays) {
+            let Packet { origins, directions, .. } = self.packet;
+            boxes.set(l, group, vector::load(l, origins, group), vector::load(l, directions, group));
         }
         walk(lanes, &self.tree.nodes, &boxes, self.rays, self.cost, &mut self.runs);
     }

@@ -10,7 +10,7 @@ use super::{
     box_ray::{BoxRay, is_beyond_boxes, larger},
 };
 use crate::{
-    lanes::{self, Job, Lanes},
+    lanes::{self, Job, Lanes, vector},
     space::{Bounds, Ray},
 };
 use glam::DVec3;
@@ -46,6 +46,27 @@ pub(crate) fn surely_reaches<L: Lanes>(lanes: L, ray: &Ray, [min, max]: [[f32; 4
     let from = l.d_le(l.d_sub(l.d_widen(&min), slack), point);
     let to = l.d_le(point, l.d_add(l.d_widen(&max), slack));
     from & to == 0b1111
+}
+
+/// [`surely_reaches`] of four rays, each with a box of its own: least and greatest, by axis.
+#[inline(always)]
+pub(crate) fn four_surely_reach<L: Lanes>(
+    l: L,
+    origins: vector::Four<L>,
+    directions: vector::Four<L>,
+    [min, max]: &[[[f32; 4]; 3]; 2],
+    t: L::D,
+) -> u32 {
+    let reach = vector::reach(l, origins);
+    let mut within = 0b1111;
+    for axis in 0..3 {
+        let way = l.d_mul(directions[axis], t);
+        let slack = l.d_mul(l.d_add(l.d_abs(way), reach), l.d_splat(ULPS * f64::EPSILON));
+        let point = l.d_add(origins[axis], way);
+        within &= l.d_le(l.d_sub(l.d_widen(&min[axis]), slack), point);
+        within &= l.d_le(point, l.d_add(l.d_widen(&max[axis]), slack));
+    }
+    within
 }
 
 /// Whether a walk would enter a node's child of that box before `t`, by the very arithmetic of the walk.

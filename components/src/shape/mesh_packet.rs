@@ -2,16 +2,16 @@
 
 use super::{
     mesh_tree::{MeshTree, NONE, counts},
-    shear::RayFrame,
+    shear::{Block, RayFrames},
 };
 use crate::{
-    bvh::{BLOCK, BoxRays, Leaf, Limits, PacketVisitor, above, is_beyond_boxes},
-    lanes::{self, Job, Lanes},
-    packet::{self, Hits, Mask, PACKET, Packet, PerRay},
+    bvh::{BLOCK, BoxRays, FARTHEST, Leaf, Limits, PacketVisitor, above, four_surely_reach, reaches},
+    lanes::{self, Job, Lanes, vector},
+    packet::{self, Hits, Mask, PACKET, Packet, PerRay, Vectors},
     primitive::Cost,
     space::Ray,
 };
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 
 /// Fewer rays than this go one by one: preparing them for the walk together costs more than it saves.
 const FEW: u32 = 3;
@@ -58,8 +58,9 @@ impl MeshTree {
 
 /// Some rays in the space of a mesh, prepared for its boxes and triangles.
 struct Placed {
-    rays: [Ray; PACKET],
-    frames: [RayFrame; PACKET],
+    origins: Vectors,
+    directions: Vectors,
+    frames: RayFrames,
     boxes: BoxRays,
     /// The rays that are to be walked together; the others, which no box could tell from, go alone.
     together: Mask,
@@ -67,21 +68,41 @@ struct Placed {
 
 impl Placed {
     #[inline(always)]
-    fn new<L: Lanes>(lanes: L, to: &DAffine3, packet: &Packet, rays: Mask) -> Self {
-        let none = Ray { origin: DVec3::ZERO, direction: DVec3::Z };
-        let mut this =
-            Self { rays: [none; PACKET], frames: [RayFrame::NONE; PACKET], boxes: BoxRays::new(), together: rays };
-        for i in packet::each(rays) {
-            let ray = packet.ray(i).transformed(to);
-            if !ray.is_valid() || is_beyond_boxes(ray.origin) {
-                this.together &= !(1 << i);
-                continue;
-            }
-            this.rays[i] = ray;
-            this.frames[i] = RayFrame::new(&ray);
-            this.boxes.set(lanes, i, &ray);
+    fn new<L: Lanes>(l: L, to: &DAffine3, packet: &Packet, rays: Mask) -> Self {
+        let none = [[0.0; PACKET]; 3];
+        let (frames, boxes) = (RayFrames::new(), BoxRays::new());
+        let mut this = Self { origins: none, directions: none, frames, boxes, together: 0 };
+        for (group, which) in packet::groups(rays) {
+            let origins = vector::moved(l, to, vector::load(l, &packet.origins, group));
+            let directions = vector::turned(l, &to.matrix3, vector::load(l, &packet.directions, group));
+            let fit =
+                packet::valid_of_four(l, origins, directions) & l.d_le(vector::reach(l, origins), l.d_splat(FARTHEST));
+            this.together |= Mask::from(fit & which) << (4 * group);
+            vector::store(l, origins, 0b1111, &mut this.origins, group);
+            vector::store(l, directions, 0b1111, &mut this.directions, group);
+            this.frames.set(l, group, origins, directions);
+            this.boxes.set(l, group, origins, directions);
         }
         this
+    }
+
+    #[inline(always)]
+    fn ray(&self, i: usize) -> Ray {
+        Ray { origin: packet::vector_of(&self.origins, i), direction: packet::vector_of(&self.directions, i) }
+    }
+
+    /// Those of four rays for whose hits at `t`, if any, in blocks at some places a walk surely comes in time.
+    #[inline(always)]
+    fn surely_reach<L: Lanes>(&self, l: L, group: usize, blocks: &[Block], places: &[u32; 4], t: &[f64; 4]) -> u32 {
+        let mut bounds = [[[0.0; 4]; 3]; 2];
+        for (lane, &place) in places.iter().enumerate() {
+            let [min, max] = blocks[place as usize / BLOCK].bounds_of(place as usize % BLOCK);
+            for axis in 0..3 {
+                (bounds[0][axis][lane], bounds[1][axis][lane]) = (min[axis], max[axis]);
+            }
+        }
+        let (origins, directions) = (vector::load(l, &self.origins, group), vector::load(l, &self.directions, group));
+        four_surely_reach(l, origins, directions, &bounds, l.d_load(t))
     }
 }
 
@@ -111,27 +132,28 @@ impl Job for Nearest<'_> {
     type Output = (Mask, Mask);
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> (Mask, Mask) {
+    fn run<L: Lanes>(self, l: L) -> (Mask, Mask) {
         let Self { tree, to, packet, rays, t_max, hits, cost } = self;
-        let placed = Placed::new(lanes, to, packet, rays);
+        let placed = Placed::new(l, to, packet, rays);
         let together = placed.together;
         hits.t = *t_max;
         hits.part = [NONE; PACKET];
         let limits = rounded(t_max, together);
         let mut search = Search { tree, frames: &placed.frames, hits, places: [0; PACKET], limits, rays: together };
-        tree.tree.walk_packet(lanes, &placed.boxes, together, cost, &mut search);
+        tree.tree.walk_packet(l, &placed.boxes, together, cost, &mut search);
         let (mut met, mut alone) = (0, rays & !together);
-        for i in packet::each(together) {
-            let Search { hits, places, .. } = &search;
-            if hits.part[i] == NONE {
-                continue;
-            }
+        let Search { hits, places, .. } = search;
+        let found = packet::each(together).filter(|&i| hits.part[i] != NONE).fold(0, |found, i| found | 1 << i);
+        for (group, which) in packet::groups(found) {
             // As for a ray alone: nearly always what was found last counts.
-            let block = &tree.blocks[places[i] as usize / BLOCK];
-            if counts(lanes, &placed.rays[i], block, places[i] as usize % BLOCK, hits.t[i]) {
-                met |= 1 << i;
-            } else {
-                alone |= 1 << i;
+            let places = &places.as_chunks().0[group];
+            let sure = placed.surely_reach(l, group, &tree.blocks, places, packet::four(&hits.t, group)) & which;
+            met |= Mask::from(sure) << (4 * group);
+            for lane in packet::each(Mask::from(which & !sure)) {
+                let (i, place) = (4 * group + lane, places[lane] as usize);
+                let vertices = tree.blocks[place / BLOCK].vertices_of(place % BLOCK);
+                let reached = reaches(&placed.ray(i), &vertices, hits.t[i]);
+                *if reached { &mut met } else { &mut alone } |= 1 << i;
             }
         }
         (met, alone)
@@ -140,7 +162,7 @@ impl Job for Nearest<'_> {
 
 struct Search<'a> {
     tree: &'a MeshTree,
-    frames: &'a [RayFrame; PACKET],
+    frames: &'a RayFrames,
     /// The distances of what was found, or the ends of the rays, and the triangles, or [`NONE`].
     hits: &'a mut Hits,
     /// Where the triangles stand: four times the block and the lane.
@@ -177,7 +199,9 @@ impl PacketVisitor for Search<'_> {
         while rays != 0 {
             let i = rays.trailing_zeros() as usize;
             rays &= rays - 1;
-            let Some((mut found, distances)) = self.frames[i].hit_block(lanes, block, self.hits.t[i]) else { continue };
+            let Some((mut found, distances)) = self.frames.one(i).hit_block(lanes, block, self.hits.t[i]) else {
+                continue;
+            };
             while found != 0 {
                 let lane = found.trailing_zeros() as usize % BLOCK;
                 found &= found - 1;
@@ -209,13 +233,13 @@ impl Job for Blocked<'_> {
     type Output = (Mask, Mask);
 
     #[inline(always)]
-    fn run<L: Lanes>(self, lanes: L) -> (Mask, Mask) {
+    fn run<L: Lanes>(self, l: L) -> (Mask, Mask) {
         let Self { tree, to, packet, rays, t_max, cost } = self;
-        let placed = Placed::new(lanes, to, packet, rays);
+        let placed = Placed::new(l, to, packet, rays);
         let together = placed.together;
         let limits = rounded(t_max, together);
         let mut search = AnySearch { tree, placed: &placed, t_max, limits, alive: together };
-        tree.tree.walk_packet(lanes, &placed.boxes, together, cost, &mut search);
+        tree.tree.walk_packet(l, &placed.boxes, together, cost, &mut search);
         (together & !search.alive, rays & !together)
     }
 }
@@ -258,12 +282,14 @@ impl PacketVisitor for AnySearch<'_> {
             let i = rays.trailing_zeros() as usize;
             rays &= rays - 1;
             let t_max = self.t_max[i];
-            let Some((mut found, distances)) = self.placed.frames[i].hit_block(lanes, block, t_max) else { continue };
+            let Some((mut found, distances)) = self.placed.frames.one(i).hit_block(lanes, block, t_max) else {
+                continue;
+            };
             while found != 0 {
                 let lane = found.trailing_zeros() as usize % BLOCK;
                 found &= found - 1;
                 let t = distances[lane];
-                if t < t_max && counts(lanes, &self.placed.rays[i], block, lane, t) {
+                if t < t_max && counts(lanes, &self.placed.ray(i), block, lane, t) {
                     self.alive &= !(1 << i);
                     break;
                 }

@@ -2,6 +2,7 @@
 
 use super::{
     mesh::{Placed, point2},
+    shear::Axes,
     terminator::lift_of_four,
 };
 use crate::{
@@ -134,13 +135,8 @@ pub(super) fn blend<L: Lanes>(l: L, [a, b, c]: [vector::Four<L>; 3], [u, v, w]: 
 /// [`super::shear::RayFrame::weights`] of four rays in a triangle each, whose vertices are told from the rays' origins.
 #[inline(always)]
 fn weights<L: Lanes>(l: L, direction: vector::Four<L>, vertices: [vector::Four<L>; 3]) -> [L::D; 3] {
-    let [x, y, z] = [l.d_abs(direction[0]), l.d_abs(direction[1]), l.d_abs(direction[2])];
-    let along_x = l.d_le(y, x) & l.d_le(z, x);
-    let along_y = l.d_le(z, y);
-    let main = l.d_select(along_x, direction[0], l.d_select(along_y, direction[1], direction[2]));
-    let backward = l.d_lt(main, l.d_splat(0.0));
-    let axes = (along_x, along_y, backward);
-    let [dx, dy, dz] = in_frame(l, axes, direction);
+    let axes = Axes::of(l, direction);
+    let [dx, dy, dz] = axes.turn(l, direction);
     let scale = l.d_div(l.d_splat(1.0), dz);
     let shear = (l.d_mul(dx, scale), l.d_mul(dy, scale));
     let [a, b, c] = vertices;
@@ -160,27 +156,9 @@ fn weights<L: Lanes>(l: L, direction: vector::Four<L>, vertices: [vector::Four<L
     ]
 }
 
-/// A vector in the order of the axes of a ray's frame; see [`super::shear::Sheared::new`].
-#[inline(always)]
-fn in_frame<L: Lanes>(
-    l: L,
-    (along_x, along_y, backward): (u32, u32, u32),
-    [x, y, z]: vector::Four<L>,
-) -> vector::Four<L> {
-    let next = l.d_select(along_x, y, l.d_select(along_y, z, x));
-    let last = l.d_select(along_x, z, l.d_select(along_y, x, y));
-    let main = l.d_select(along_x, x, l.d_select(along_y, y, z));
-    [l.d_select(backward, last, next), l.d_select(backward, next, last), main]
-}
-
 /// Where vertices stand in the sheared frames of rays.
 #[inline(always)]
-fn placed<L: Lanes>(
-    l: L,
-    axes: (u32, u32, u32),
-    (shear_x, shear_y): (L::D, L::D),
-    vertex: vector::Four<L>,
-) -> (L::D, L::D) {
-    let [x, y, z] = in_frame(l, axes, vertex);
+fn placed<L: Lanes>(l: L, axes: Axes, (shear_x, shear_y): (L::D, L::D), vertex: vector::Four<L>) -> (L::D, L::D) {
+    let [x, y, z] = axes.turn(l, vertex);
     (l.d_sub(x, l.d_mul(shear_x, z)), l.d_sub(y, l.d_mul(shear_y, z)))
 }

@@ -8,7 +8,8 @@
 
 use super::triangle_kernel::{TriangleHit, TriangleKernel};
 use crate::{
-    lanes::Lanes,
+    lanes::{Lanes, vector},
+    packet::{Mask, PACKET, PerRay, Vectors},
     real::{self, Real, Vector},
     space::Ray,
 };
@@ -31,10 +32,6 @@ pub struct Sheared<R> {
 }
 
 impl<R: Real> Sheared<R> {
-    /// Of no ray.
-    pub(crate) const NONE: Self =
-        Self { start: [R::ZERO; 3], kx: 0, ky: 1, kz: 2, shear_x: R::ZERO, shear_y: R::ZERO, scale_z: R::ONE };
-
     /// Prepares a ray; its direction must not be zero.
     #[must_use]
     #[inline]
@@ -197,6 +194,85 @@ impl RayFrame {
         let mut distances = [0.0; 4];
         l.d_store(t, &mut distances);
         Some((hits, distances))
+    }
+}
+
+/// The axes of four rays' frames: those whose main axis is x, those of which it is y if not x, and those that run backward
+/// along it.
+#[derive(Clone, Copy)]
+pub(super) struct Axes {
+    along_x: u32,
+    along_y: u32,
+    backward: u32,
+}
+
+impl Axes {
+    /// Those of [`RayFrame::new`].
+    #[inline(always)]
+    pub(super) fn of<L: Lanes>(l: L, directions: vector::Four<L>) -> Self {
+        let [x, y, z] = [l.d_abs(directions[0]), l.d_abs(directions[1]), l.d_abs(directions[2])];
+        let along_x = l.d_le(y, x) & l.d_le(z, x);
+        let along_y = l.d_le(z, y);
+        let main = l.d_select(along_x, directions[0], l.d_select(along_y, directions[1], directions[2]));
+        Self { along_x, along_y, backward: l.d_lt(main, l.d_splat(0.0)) }
+    }
+
+    /// Vectors in the order of these axes.
+    #[inline(always)]
+    pub(super) fn turn<L: Lanes>(self, l: L, [x, y, z]: vector::Four<L>) -> vector::Four<L> {
+        let Self { along_x, along_y, backward } = self;
+        let next = l.d_select(along_x, y, l.d_select(along_y, z, x));
+        let last = l.d_select(along_x, z, l.d_select(along_y, x, y));
+        let main = l.d_select(along_x, x, l.d_select(along_y, y, z));
+        [l.d_select(backward, last, next), l.d_select(backward, next, last), main]
+    }
+}
+
+/// Rays prepared for triangle tests.
+pub(super) struct RayFrames {
+    start: Vectors,
+    shear_x: PerRay,
+    shear_y: PerRay,
+    scale_z: PerRay,
+    /// As [`Axes`] has them.
+    along_x: Mask,
+    along_y: Mask,
+    backward: Mask,
+}
+
+/// `kx`, `ky` and `kz` by a bit each of [`Axes`], the first lowest.
+const ORDER: [[usize; 3]; 8] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [1, 2, 0], [1, 0, 2], [2, 1, 0], [0, 2, 1], [2, 1, 0]];
+
+impl RayFrames {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        let none = [0.0; PACKET];
+        Self { start: [none; 3], shear_x: none, shear_y: none, scale_z: none, along_x: 0, along_y: 0, backward: 0 }
+    }
+
+    /// [`RayFrame::new`] of four rays; once.
+    #[inline(always)]
+    pub(super) fn set<L: Lanes>(&mut self, l: L, group: usize, origins: vector::Four<L>, directions: vector::Four<L>) {
+        let axes = Axes::of(l, directions);
+        let [x, y, main] = axes.turn(l, directions);
+        let scale = l.d_div(l.d_splat(1.0), main);
+        l.d_store(scale, &mut self.scale_z.as_chunks_mut().0[group]);
+        l.d_store(l.d_mul(x, scale), &mut self.shear_x.as_chunks_mut().0[group]);
+        l.d_store(l.d_mul(y, scale), &mut self.shear_y.as_chunks_mut().0[group]);
+        vector::store(l, axes.turn(l, origins), 0b1111, &mut self.start, group);
+        self.along_x |= Mask::from(axes.along_x) << (4 * group);
+        self.along_y |= Mask::from(axes.along_y) << (4 * group);
+        self.backward |= Mask::from(axes.backward) << (4 * group);
+    }
+
+    /// One of them.
+    #[inline(always)]
+    pub(super) fn one(&self, i: usize) -> RayFrame {
+        let bit = |mask: Mask| (mask >> i & 1) as usize;
+        let [kx, ky, kz] = ORDER[bit(self.along_x) | bit(self.along_y) << 1 | bit(self.backward) << 2];
+        let [x, y, z] = &self.start;
+        let (shear_x, shear_y, scale_z) = (self.shear_x[i], self.shear_y[i], self.scale_z[i]);
+        Sheared { start: [x[i], y[i], z[i]], kx, ky, kz, shear_x, shear_y, scale_z }
     }
 }
 
