@@ -1,7 +1,11 @@
 //! The suite for shapes, lights and patterns catches faults: each of these is a ball, a light or a pattern with one.
 
 use snell::{
-    components::packet::{Hits, Mask, Packet, PerRay, blocked_each, hit_each},
+    components::{
+        packet::{Hits, Mask, PACKET, Packet, PerRay, Vectors, blocked_each, each, hit_each},
+        primitive::surface_alone,
+        surfaces::{Meeting, Surfaces},
+    },
     conformance::{Form, check, check_light, check_texture},
     prelude::*,
 };
@@ -53,6 +57,8 @@ faults! {
     OTHER_WITHOUT_UV = 21, another_surface_without_texture: "surface";
     PACKET_BY_ONE_BIT = 22, one_bit_between_packet_and_ray: "packet";
     PACKET_BLOCKS_AT_END = 23, shadows_of_packets_at_their_end: "packet";
+    SURFACE_OF_PACKET_BY_ONE_BIT = 24, one_bit_between_the_surfaces_of_packet_and_ray: "packet";
+    SURFACE_OF_ANOTHER_RAY = 25, a_surface_written_where_another_stands: "packet";
 }
 
 /// A ball about the origin with a fault.
@@ -153,6 +159,18 @@ impl<const FAULT: u8> Primitive for Broken<FAULT> {
         }
     }
 
+    fn surface_packet(shapes: &[Packed], met: &Meeting<'_>, surfaces: &mut Surfaces) {
+        for i in each(met.rays) {
+            let (ray, shape, hit) = met.of(i);
+            surface_alone::<Self>(&shapes[shape], &ray, hit, met.textured >> i & 1 != 0, i, surfaces);
+            match FAULT {
+                SURFACE_OF_PACKET_BY_ONE_BIT if i == 10 => surfaces.lift[2][10] = f64::from_bits(1),
+                SURFACE_OF_ANOTHER_RAY => surfaces.error[(i + 1) % PACKET] = 0.0,
+                _ => {}
+            }
+        }
+    }
+
     fn surface(packed: &Packed, ray: &Ray, hit: Hit) -> Surface {
         let mut surface = Sphere::surface(&packed.sphere, ray, hit);
         let place = (surface.point - packed.center) / packed.radius;
@@ -206,8 +224,9 @@ light_and_pattern_faults! {
     LIGHT_FIELD_FORGOTTEN = 7, a_field_of_a_light_that_is_not_read: check_light "text";
     COLOR_BY_ONE_BIT = 8, a_colour_brighter_than_told_by_one_bit: check_texture "brightest";
     COLOR_NOT_A_NUMBER = 9, a_colour_that_is_not_a_number: check_texture "pattern";
-    COLOR_OF_CHANCE = 10, a_colour_of_chance: check_texture "repeatable" "footprint";
+    COLOR_OF_CHANCE = 10, a_colour_of_chance: check_texture "repeatable" "footprint" "packet";
     FOOTPRINT_NOT_TOLD = 11, a_footprint_that_is_not_told: check_texture "footprint";
+    COLOR_OF_PACKET_BY_ONE_BIT = 12, one_bit_between_the_colours_of_packet_and_ray: check_texture "packet";
 }
 
 /// A light that comes from above, and an even pattern, with a fault.
@@ -278,6 +297,17 @@ impl<const FAULT: u8> Pattern for Gloomy<FAULT> {
             FOOTPRINT_NOT_TOLD => self.level / (1.0 + at.footprint.uv[0].length()),
             _ => self.level,
         })
+    }
+
+    fn color_packet(&self, surfaces: &Surfaces, rays: Mask, colors: &mut Vectors) {
+        for i in each(rays) {
+            let (uv, point) = (surfaces.get(i).uv, surfaces.get(i).point);
+            let color = self.color(&TexturePoint { uv, point, ..TexturePoint::default() });
+            for (axis, color) in color.to_array().into_iter().enumerate() {
+                let wrong = FAULT == COLOR_OF_PACKET_BY_ONE_BIT && (axis, i) == (1, 6);
+                colors[axis][i] = if wrong { color.next_down() } else { color };
+            }
+        }
     }
 
     fn brightest(&self) -> Option<Rgb> {

@@ -153,6 +153,8 @@ pub trait Lanes: Copy {
     fn d_min(self, a: Self::D, b: Self::D) -> Self::D;
     fn d_max(self, a: Self::D, b: Self::D) -> Self::D;
     fn d_abs(self, a: Self::D) -> Self::D;
+    /// The largest integers not above.
+    fn d_floor(self, a: Self::D) -> Self::D;
     /// The magnitudes of `a` with the signs of `b`.
     fn d_with_sign(self, a: Self::D, b: Self::D) -> Self::D;
     /// The sign bits.
@@ -189,6 +191,7 @@ mod tests {
                 l.d_min(a, b),
                 l.d_max(a, b),
                 l.d_abs(a),
+                l.d_floor(a),
                 l.d_with_sign(a, b),
                 l.d_widen(few),
                 l.d_splat(self.0[0][3]),

@@ -1,6 +1,7 @@
 //! Lanes as arrays: what every machine has, and the reference for all levels.
 
 use super::Lanes;
+use crate::math;
 use core::array::from_fn;
 
 /// Arrays and plain loops.
@@ -114,6 +115,10 @@ impl Lanes for Portable {
     #[inline(always)]
     fn d_abs(self, a: [f64; 4]) -> [f64; 4] {
         a.map(f64::abs)
+    }
+    #[inline(always)]
+    fn d_floor(self, a: [f64; 4]) -> [f64; 4] {
+        a.map(math::floor)
     }
     #[inline(always)]
     fn d_with_sign(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {

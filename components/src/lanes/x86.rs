@@ -96,6 +96,7 @@ macro_rules! common {
         op!(d_min(a: __m256d, b: __m256d) -> __m256d = _mm256_min_pd(a, b));
         op!(d_max(a: __m256d, b: __m256d) -> __m256d = _mm256_max_pd(a, b));
         op!(d_abs(a: __m256d) -> __m256d = _mm256_andnot_pd(_mm256_set1_pd(-0.0), a));
+        op!(d_floor(a: __m256d) -> __m256d = _mm256_floor_pd(a));
         op!(d_with_sign(a: __m256d, b: __m256d) -> __m256d = {
             let sign = _mm256_set1_pd(-0.0);
             _mm256_or_pd(_mm256_andnot_pd(sign, a), _mm256_and_pd(sign, b))

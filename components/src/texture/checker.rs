@@ -1,7 +1,14 @@
 //! `Checker(odd: 0.2, frequency: 4)`: squares of two colours in turn.
 
 use super::{Footprint, Pattern, ROUNDED, Texture, TexturePoint};
-use crate::{color::Rgb, describe::Describe, math};
+use crate::{
+    color::Rgb,
+    describe::Describe,
+    lanes::{self, Job, Lanes, vector},
+    math,
+    packet::{Mask, Vectors, four, groups},
+    surfaces::Surfaces,
+};
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use std::sync::Arc;
@@ -46,6 +53,11 @@ impl Pattern for Checker {
         if half == math::floor(half) { self.even } else { self.odd }
     }
 
+    fn color_packet(&self, surfaces: &Surfaces, rays: Mask, colors: &mut Vectors) {
+        // What stands for no more than its point is that of the point, filtered or not.
+        lanes::run(Squares { checker: self, surfaces, rays, colors });
+    }
+
     fn filters(&self) -> bool {
         self.filtered
     }
@@ -53,6 +65,32 @@ impl Pattern for Checker {
     fn brightest(&self) -> Option<Rgb> {
         let brighter = self.even.max(self.odd);
         Some(if self.filtered { brighter * ROUNDED } else { brighter })
+    }
+}
+
+/// The colours at the points of some rays.
+struct Squares<'a> {
+    checker: &'a Checker,
+    surfaces: &'a Surfaces,
+    rays: Mask,
+    colors: &'a mut Vectors,
+}
+
+impl Job for Squares<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(self, l: L) {
+        let Self { checker, surfaces, rays, colors } = self;
+        let [even, odd] = [vector::splat(l, checker.even), vector::splat(l, checker.odd)];
+        let frequency = l.d_splat(checker.frequency);
+        for (group, which) in groups(rays) {
+            let x = l.d_floor(l.d_mul(l.d_load(four(&surfaces.uv[0], group)), frequency));
+            let y = l.d_floor(l.d_mul(l.d_load(four(&surfaces.uv[1], group)), frequency));
+            let half = l.d_mul(l.d_add(x, y), l.d_splat(0.5));
+            let is_even = vector::equal(l, half, l.d_floor(half));
+            vector::store(l, vector::select(l, is_even, even, odd), which, colors, group);
+        }
     }
 }
 

@@ -2,12 +2,13 @@
 
 use super::{Report, case::Case};
 use crate::render::Key;
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use snell_components::{
     method::Methods,
-    packet::{Hits, Mask, PACKET, Packet},
-    primitive::{Cost, Hit, Primitive, Surface},
+    packet::{Hits, Mask, PACKET, Packet, each, vector_of},
+    primitive::{Cost, Hit, Primitive, Surface, surface_alone},
     space::Ray,
+    surfaces::{Meeting, Surfaces},
 };
 
 /// Rays that a shape is tried with in every placement.
@@ -45,6 +46,7 @@ fn check_packets<P: Primitive>(case: &Case<P>, report: &mut Report) {
         for asked in [packet.all(), packet.all() & asked, packet.all() & 0x8000_0400_0000_0010] {
             let (mut hits, mut cost) = (Hits::default(), Cost::default());
             let met = P::hit_packet(&case.packed, &packet, asked, &t_max, &mut hits, &mut cost);
+            check_surfaces(case, &packet, met, &hits, report);
             let blocked = P::blocks_packet(&case.packed, &packet, asked, &t_max, &mut cost);
             for (i, ray) in rays.iter().enumerate() {
                 let is = |mask: Mask| mask >> i & 1 == 1;
@@ -60,6 +62,49 @@ fn check_packets<P: Primitive>(case: &Case<P>, report: &mut Report) {
                     report.add("packet", &case.name, what);
                 }
             }
+        }
+    }
+}
+
+/// The surfaces that rays met together against those of the same rays alone, to the last bit.
+fn check_surfaces<P: Primitive>(case: &Case<P>, packet: &Packet, met: Mask, hits: &Hits, report: &mut Report) {
+    let textured = met & 0x5a5a_5a5a_0ff0_3333;
+    let shape = [1; PACKET];
+    let meeting = Meeting { packet, rays: met, textured, shape: &shape, t: &hits.t, part: &hits.part };
+    // What others stand on is not to be touched.
+    let other = Surface {
+        point: DVec3::splat(1.25),
+        normal: DVec3::X,
+        shading_normal: DVec3::Z,
+        uv: DVec2::splat(0.75),
+        slot: 77,
+        error: 3.0,
+    };
+    let mut surfaces = Surfaces::default();
+    (0..PACKET).for_each(|i| surfaces.set(i, &other, DVec3::splat(0.5)));
+    let mut expected = surfaces.clone();
+    P::surface_packet(&[case.packed.clone(), case.packed.clone()], &meeting, &mut surfaces);
+    for i in each(met) {
+        let (ray, _, hit) = meeting.of(i);
+        surface_alone::<P>(&case.packed, &ray, hit, textured >> i & 1 != 0, i, &mut expected);
+    }
+    for i in 0..PACKET {
+        let asked = textured >> i & 1 != 0 || met >> i & 1 == 0;
+        let numbers = |of: &Surfaces| {
+            let Surface { point, normal, shading_normal, uv, slot, error } = of.get(i);
+            let lift = vector_of(&of.lift, i);
+            let uv = if asked { uv.to_array() } else { [0.0; 2] };
+            let vectors = [point, normal, shading_normal, lift].map(|v| v.to_array().map(f64::to_bits));
+            (vectors, uv.map(f64::to_bits), slot, error.to_bits())
+        };
+        if numbers(&surfaces) != numbers(&expected) {
+            let (alone, together) = (expected.get(i), surfaces.get(i));
+            let lifts = (vector_of(&expected.lift, i), vector_of(&surfaces.lift, i));
+            let what = format!(
+                "{:?}: the surface met alone is {alone:?}, in a packet {together:?}; lifts {lifts:?}",
+                packet.ray(i)
+            );
+            report.add("packet", &case.name, what);
         }
     }
 }

@@ -6,7 +6,9 @@ use glam::{DAffine3, DVec2, DVec3};
 use snell_components::{
     color::Rgb,
     light::{Illumination, Lamp, Light},
-    texture::{Footprint, Texture, TexturePoint},
+    packet::{Mask, PACKET, each, set_vector, vector_of},
+    surfaces::Surfaces,
+    texture::{Footprint, Pattern, Texture, TexturePoint},
     transform::{Step, Transform},
 };
 
@@ -76,6 +78,7 @@ pub(super) fn check_texture<T: Texture>(texture: &T, name: &str, watch: &Watch, 
         report.add("pattern", name, "there is nothing to show");
         return;
     };
+    let mut together = Together::default();
     for n in 0..POINTS {
         watch.asks(name, None);
         let key = Key::of_pixel(n, 22, 7);
@@ -92,11 +95,35 @@ pub(super) fn check_texture<T: Texture>(texture: &T, name: &str, watch: &Watch, 
         if differs(pattern.color(&at)) {
             report.add("repeatable", name, format!("at {uv}, {} it gives another colour when asked again", at.point));
         }
+        if let Some(other) = together.color(&*pattern, n as usize % PACKET, &at)
+            && differs(other)
+        {
+            let what = format!("at {uv}, {} it gives {color} alone and {other} in a packet", at.point);
+            report.add("packet", name, what);
+        }
         let wide = Footprint { uv: [DVec2::X, DVec2::Y], point: [DVec3::X, DVec3::Z] };
         if !pattern.filters() && differs(pattern.color(&TexturePoint { footprint: wide, ..at })) {
             let what = format!("at {uv} the colour depends on the footprint, but `filters` says that it does not");
             report.add("footprint", name, what);
         }
+    }
+}
+
+/// Points that a pattern is asked about together.
+#[derive(Default)]
+struct Together(Surfaces);
+
+impl Together {
+    /// Puts a point among the others, and gives its colour where it is among those asked for.
+    fn color(&mut self, pattern: &dyn Pattern, i: usize, at: &TexturePoint) -> Option<Rgb> {
+        set_vector(&mut self.0.point, i, at.point);
+        self.0.set_uv(i, at.uv);
+        // All of them now and then, and a few.
+        let rays = if i == PACKET - 1 { Mask::MAX } else { (0x8421_0000_0000_1248 >> i & 1) << i };
+        let mut colors = [[f64::NAN; PACKET]; 3];
+        pattern.color_packet(&self.0, rays, &mut colors);
+        let others = each(!rays).all(|i| vector_of(&colors, i).is_nan());
+        (rays >> i & 1 != 0).then(|| if others { vector_of(&colors, i) } else { Rgb::NAN })
     }
 }
 

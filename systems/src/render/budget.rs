@@ -4,6 +4,7 @@ use crate::{extract::Ceiling, snapshot::Snapshot};
 use snell_components::color::Rgb;
 
 /// Decides which rays are not followed, for the tree of one ray through a pixel.
+#[derive(Clone, Copy)]
 pub(super) enum Cut<'a> {
     /// Those that weigh less than this.
     Weight(f64),

@@ -17,7 +17,6 @@ use snell_components::{
     method::Methods,
     primitive::{Cost, OFFSET_ULPS, Surface},
     space::Ray,
-    texture::{Footprint, TexturePoint},
 };
 
 /// A point to be shaded, its normals turned toward the viewer.
@@ -57,18 +56,6 @@ impl Arriving {
 }
 
 impl Point<'_> {
-    /// The surface colour there.
-    pub(super) fn color(&self, footprint: impl FnOnce() -> Footprint) -> Rgb {
-        let Material { color, texture, .. } = self.material;
-        match texture {
-            None => *color,
-            Some(pattern) => {
-                let Surface { uv, point, .. } = self.surface;
-                *color * pattern.color(&TexturePoint { uv, point, footprint: footprint() })
-            }
-        }
-    }
-
     /// The term that a light adds; `asks` has the colour of the surface in it, unless that is multiplied later.
     pub(super) fn term(&self, asks: &Effect, light: &Arriving) -> Rgb {
         match *asks {

@@ -12,13 +12,14 @@ use snell_components::{
     color::Rgb,
     lanes::{self, Job, Lanes, vector},
     packet::{Mask, PACKET, Vectors, each, groups, set_vector, vector_of},
+    texture::{Pattern, TexturePoint},
 };
 
 /// The light at the points where the rays of a wave met surfaces, as far as it is known.
 pub(super) struct Light {
     /// Sum of the terms that need no lamp.
     pub local: Vectors,
-    /// The colours of surfaces that have textures.
+    /// What textures show there.
     color: Vectors,
     /// What Lambert's reflection is multiplied by: its strength in the colour of the surface.
     pub tint: Vectors,
@@ -45,8 +46,10 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
         let mut asking = 0;
         for &(material, rays) in by_material {
             let material = &materials[material];
-            if material.texture.is_some() && material.effects.first().is_some_and(Effect::is_light) {
-                self.look_up_colors(rays);
+            if let Some(texture) = &material.texture
+                && material.effects.first().is_some_and(Effect::is_light)
+            {
+                self.look_up_colors(rays, &**texture);
             }
             lanes::run(Begin { wave: self.wave, rays, material, ambient: self.snapshot.lights.ambient });
             if O::WATCHES {
@@ -68,17 +71,25 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
         }
     }
 
-    fn look_up_colors(&mut self, rays: Mask) {
+    fn look_up_colors(&mut self, rays: Mask, texture: &dyn Pattern) {
+        let Wave { surfaces, light, .. } = &mut *self.wave;
+        if !B::RUNS || !texture.filters() {
+            texture.color_packet(surfaces, rays, &mut light.color);
+            return;
+        }
         for i in each(rays) {
-            let met = self.trees[i].met;
-            let point = self.wave.point(i, self.snapshot, self.methods);
-            let color = point.color(|| met.map_or_else(Default::default, |met| B::footprint(&met, &point.surface)));
-            set_vector(&mut self.wave.light.color, i, color);
+            let surface = surfaces.get(i);
+            let footprint = self.trees[i].met.map_or_else(Default::default, |met| B::footprint(&met, &surface));
+            let at = TexturePoint { uv: surface.uv, point: surface.point, footprint };
+            set_vector(&mut light.color, i, texture.color(&at));
         }
     }
 
     fn color_of(&self, i: usize, material: &Material) -> Rgb {
-        if material.texture.is_some() { vector_of(&self.wave.light.color, i) } else { material.color }
+        match material.texture {
+            Some(_) => material.color * vector_of(&self.wave.light.color, i),
+            None => material.color,
+        }
     }
 
     fn tell_ambient(&mut self, i: usize, material: &Material) {
@@ -116,10 +127,10 @@ impl Job for Begin<'_> {
         let Wave { surfaces, bests, light, .. } = wave;
         for (group, which) in groups(rays) {
             let mut local = vector::splat(l, Rgb::ZERO);
-            let color = match material.texture {
-                Some(_) => vector::load(l, &light.color, group),
-                None => vector::splat(l, material.color),
-            };
+            let mut color = vector::splat(l, material.color);
+            if material.texture.is_some() {
+                color = vector::mul(l, color, vector::load(l, &light.color, group));
+            }
             for effect in &material.effects {
                 match *effect {
                     Effect::Ambient(strength) => {

@@ -151,10 +151,11 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     fn begin(&mut self, starts: impl Iterator<Item = Start<B>>) -> Mask {
         let Self { snapshot, trees, wave, observer, .. } = self;
         let mut places = [[0.0; PACKET]; 2];
+        let cut = Cut::of(snapshot);
         let mut rays = 0;
         for (i, Start { x, y, beside, key }) in starts.enumerate() {
             (places[0][i], places[1][i]) = (x, y);
-            trees.push(Tree { cut: Cut::of(snapshot), beside, met: None, next: NONE });
+            trees.push(Tree { cut, beside, met: None, next: NONE });
             wave.begin(i, key);
             rays |= 1 << i;
         }
