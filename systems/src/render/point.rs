@@ -81,32 +81,9 @@ impl Point<'_> {
         Some(Arriving { direction, length, cosine, intensity: light.intensity, visible: Rgb::ONE })
     }
 
-    /// Share of a light that gets through to the start of `ray`, whose direction is so long, and which ends at the
-    /// light: none if anything opaque is in between; else every transparent surface weakens it, as do the bodies it goes
-    /// through. The ray goes straight, even where a view ray would bend.
-    pub(super) fn visibility(
-        &self,
-        ray: Ray,
-        length: f64,
-        distance: f64,
-        interior: &Interior,
-        counts: &mut Counts,
-    ) -> Rgb {
-        let Snapshot { geometry, parted, .. } = self.snapshot;
-        let mut cost = Cost::default();
-        counts.shadow += 1;
-        let rest = short_of_the_light(&ray, length, distance);
-        let opaque = parted.as_ref().map_or(&**geometry, |parted| &parted.opaque);
-        let blocked = opaque.blocked(&ray, rest, self.methods, &mut cost);
-        counts.add(cost);
-        match parted {
-            _ if blocked => Rgb::ZERO,
-            None => Rgb::ONE,
-            Some(parted) => self.through_clear(&parted.clear, ray, rest, distance, interior, counts),
-        }
-    }
-
-    /// Share of a light that gets through all that is clear on the way, up to `rest` of the `distance` to the light.
+    /// Share of a light that gets through all that is clear on the way along `ray`, up to `rest` of the `distance` to the
+    /// light: every transparent surface weakens it, as do the bodies it goes through. The ray goes straight, even where a
+    /// view ray would bend.
     #[inline(never)]
     pub(super) fn through_clear(
         &self,

@@ -1,6 +1,6 @@
 //! The rays of some trees at one step of their walk, as a structure of arrays.
 
-use super::{Key, point::Point, shade::Light, split::Split};
+use super::{Key, area::Parts, point::Point, shade::Light, split::Split};
 use crate::{accelerate::Bests, snapshot::Snapshot};
 use smallvec::SmallVec;
 use snell_components::{
@@ -46,6 +46,8 @@ pub(super) struct Wave {
     pub first: [Option<u32>; PACKET],
     /// The light at the surfaces.
     pub light: Light,
+    /// Looks from one point to parts of a lamp.
+    pub parts: Parts,
     /// What becomes of rays at clear surfaces.
     pub split: Split,
 }
@@ -70,6 +72,7 @@ impl Default for Wave {
             sum: none,
             first: [None; PACKET],
             light: Light::default(),
+            parts: Parts::default(),
             split: Split::default(),
         }
     }
