@@ -1,8 +1,9 @@
 //! How rays are placed in a pixel, and what its light is made of.
 
 use super::{
-    Counts, Key,
+    Counts, Key, Region,
     budget::variance_for_pixels,
+    corners::Corners,
     footprint::{Beside, Neighbours},
     observe::Observer,
     trace::{Brought, Start, light_along},
@@ -26,11 +27,15 @@ pub(super) struct Pixels<'a, O> {
     methods: &'a Methods,
     pub(super) counts: &'a mut Counts,
     observer: &'a mut O,
-    corners: Corners,
+    pub(super) corners: Corners,
+    /// What the middles of parts of the pixel at hand bring that will be wanted.
+    pub(super) middles: BTreeMap<[u32; 2], Seen>,
     /// Whether things change between the corners of a pixel, by row and column.
     changing: BTreeMap<(u32, u32), bool>,
+    /// What is drawn row by row, if that is known: rays that will be wanted are traced together.
+    pub(super) ahead: Option<Region>,
     /// Rays traced so far.
-    traced: u32,
+    pub(super) traced: u32,
     wave: Box<Wave>,
     pub(super) brought: Vec<Brought>,
 }
@@ -38,13 +43,13 @@ pub(super) struct Pixels<'a, O> {
 /// What a ray through a point of the picture brings.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seen {
-    light: Rgb,
+    pub(super) light: Rgb,
     /// The object it meets first.
-    object: Option<u32>,
+    pub(super) object: Option<u32>,
     /// The most that what was cut behind it could have added.
-    cut_bound: f64,
+    pub(super) cut_bound: f64,
     /// Which ray it was: the first, second, …
-    number: u32,
+    pub(super) number: u32,
 }
 
 /// Where the `i`th of `n` by `n` rays goes through a pixel.
@@ -55,7 +60,7 @@ pub(super) fn in_grid(n: u32, x: u32, y: u32, i: u32) -> (f64, f64) {
 }
 
 /// Steps of the lattice of corners in a pixel: the middle of the smallest part lies on it.
-const STEPS: u32 = 1 << (MAX_SUBDIVISIONS + 1);
+pub(super) const STEPS: u32 = 1 << (MAX_SUBDIVISIONS + 1);
 
 impl<'a, O: Observer> Pixels<'a, O> {
     pub(super) fn new(
@@ -70,7 +75,9 @@ impl<'a, O: Observer> Pixels<'a, O> {
             counts,
             observer,
             corners: Corners::default(),
+            middles: BTreeMap::new(),
             changing: BTreeMap::new(),
+            ahead: None,
             traced: 0,
             wave: Box::default(),
             brought: vec![],
@@ -87,6 +94,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
             Antialias::Adaptive => {
                 self.corners.begin(x, y);
                 self.changing.retain(|(row, _), _| row + 1 >= y);
+                self.look_ahead(x, y);
                 let pixel = Part::pixel(x, y);
                 let mut light = Rgb::ZERO;
                 let halved = if settings.error > 0.0 {
@@ -119,23 +127,24 @@ impl<'a, O: Observer> Pixels<'a, O> {
         self.observer.sample();
         let number = self.traced;
         self.brought.clear();
-        self.trace(core::iter::once((x, y, key)), spacing);
+        self.trace(core::iter::once((x, y, spacing, key)));
         let [Brought { light, object, cut_bound }] = self.brought[..] else { unreachable!("one ray") };
         Seen { light, object, cut_bound, number }
     }
 
-    /// Adds what rays through some points of the picture bring, at most as many as a packet holds, to what was brought.
-    pub(super) fn trace(&mut self, points: impl Iterator<Item = (f64, f64, Key)>, spacing: f64) {
+    /// Adds what rays through some points of the picture bring, at most as many as a packet holds, to what was brought;
+    /// each with the distance to the next rays.
+    pub(super) fn trace(&mut self, points: impl Iterator<Item = (f64, f64, f64, Key)>) {
         let Self { snapshot, methods, counts, observer, wave, brought, .. } = self;
         let before = brought.len();
         if snapshot.materials.any_filtered {
-            let starts = points.map(|(x, y, key)| {
+            let starts = points.map(|(x, y, spacing, key)| {
                 let beside = Neighbours::start(snapshot, x, y, spacing);
                 Start { x, y, beside, key }
             });
             light_along(snapshot, starts, methods, wave, counts, *observer, brought);
         } else {
-            let starts = points.map(|(x, y, key)| Start { x, y, beside: (), key });
+            let starts = points.map(|(x, y, _, key)| Start { x, y, beside: (), key });
             light_along(snapshot, starts, methods, wave, counts, *observer, brought);
         }
         let traced = brought.len() - before;
@@ -164,10 +173,13 @@ impl<'a, O: Observer> Pixels<'a, O> {
             false
         } else if last {
             let [x, y] = part.middle();
-            let seen = self.at(x, y, part.size());
+            let seen = self.middles.remove(&[x, y]).unwrap_or_else(|| self.at(x, y, part.size()));
             self.add(&seen, part.area(), sum);
             false
         } else {
+            if part.level == 0 {
+                self.look_into(settings, part);
+            }
             for part in part.quarters() {
                 self.add_halved(settings, part, sum);
             }
@@ -231,6 +243,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
             }
             variance -= widest.variance;
             edges -= widest.edge_area();
+            self.look_at_parts(&widest.part.quarters());
             for quarter in widest.part.quarters() {
                 let mut quarter = self.measured(quarter, error, measured);
                 if tangled {
@@ -302,7 +315,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
         Some(InPart { at, seen })
     }
 
-    fn corners(&mut self, part: Part) -> Four {
+    pub(super) fn corners(&mut self, part: Part) -> Four {
         Four(part.corners().map(|[x, y]| self.corner(x, y)))
     }
 
@@ -311,17 +324,27 @@ impl<'a, O: Observer> Pixels<'a, O> {
         if let Some(seen) = self.corners.get(x, y) {
             return seen;
         }
-        // The size of the largest part that has this corner, so that all parts see the same through it.
-        let size = STEPS.min(1u32.checked_shl((x | y).trailing_zeros()).unwrap_or(STEPS));
-        let seen = self.at(x, y, size);
+        let seen = self.at(x, y, spacing_at(x, y));
         self.corners.keep(x, y, seen);
         seen
     }
 
     fn at(&mut self, x: u32, y: u32, spacing: u32) -> Seen {
-        let in_pixels = |steps: u32| f64::from(steps) / f64::from(STEPS);
-        self.through(in_pixels(x), in_pixels(y), in_pixels(spacing), key(x, y))
+        let (x, y, spacing, key) = ray_through(x, y, spacing);
+        self.through(x, y, spacing, key)
     }
+}
+
+/// The size of the largest part that has this corner, so that all parts see the same through it.
+pub(super) fn spacing_at(x: u32, y: u32) -> u32 {
+    STEPS.min(1u32.checked_shl((x | y).trailing_zeros()).unwrap_or(STEPS))
+}
+
+/// The ray through a point of the lattice: where it goes through the picture, in pixels, the distance to the next rays,
+/// and its key.
+pub(super) fn ray_through(x: u32, y: u32, spacing: u32) -> (f64, f64, f64, Key) {
+    let in_pixels = |steps: u32| f64::from(steps) / f64::from(STEPS);
+    (in_pixels(x), in_pixels(y), in_pixels(spacing), key(x, y))
 }
 
 /// The key of a ray through a point of the lattice.
@@ -353,10 +376,10 @@ const BENT: f64 = 0.125;
 
 /// A square part of a pixel: its upper left corner in steps of the lattice, and how often the pixel was halved.
 #[derive(Clone, Copy, PartialEq, Eq)]
-struct Part {
+pub(super) struct Part {
     x: u32,
     y: u32,
-    level: u32,
+    pub(super) level: u32,
 }
 
 impl Part {
@@ -364,7 +387,7 @@ impl Part {
         Self { x: x * STEPS, y: y * STEPS, level: 0 }
     }
 
-    fn size(self) -> u32 {
+    pub(super) fn size(self) -> u32 {
         STEPS >> self.level
     }
 
@@ -373,17 +396,17 @@ impl Part {
         1.0 / f64::from(1u32 << (2 * self.level))
     }
 
-    fn corners(self) -> [[u32; 2]; 4] {
+    pub(super) fn corners(self) -> [[u32; 2]; 4] {
         let Self { x, y, .. } = self;
         let (right, low) = (x + self.size(), y + self.size());
         [[x, y], [right, y], [x, low], [right, low]]
     }
 
-    fn middle(self) -> [u32; 2] {
+    pub(super) fn middle(self) -> [u32; 2] {
         [self.x + self.size() / 2, self.y + self.size() / 2]
     }
 
-    fn quarters(self) -> [Self; 4] {
+    pub(super) fn quarters(self) -> [Self; 4] {
         let [right, low] = self.middle();
         let level = self.level + 1;
         [[self.x, self.y], [right, self.y], [self.x, low], [right, low]].map(|[x, y]| Self { x, y, level })
@@ -391,7 +414,7 @@ impl Part {
 }
 
 /// What the corners of a part bring.
-struct Four([Seen; 4]);
+pub(super) struct Four([Seen; 4]);
 
 impl Four {
     fn same_object(&self) -> bool {
@@ -399,7 +422,7 @@ impl Four {
     }
 
     /// Whether they show one object and differ by no more than this.
-    fn are_alike(&self, contrast: f64) -> bool {
+    pub(super) fn are_alike(&self, contrast: f64) -> bool {
         self.same_object() && self.contrast() <= contrast
     }
 
@@ -512,68 +535,3 @@ impl PartialEq for Measured {
 }
 
 impl Eq for Measured {}
-
-/// What rays through corners brought, as long as another pixel of the row or the rows below may want it.
-#[derive(Default)]
-struct Corners {
-    /// The pixel at hand.
-    pixel: Option<(u32, u32)>,
-    /// Of pixels, by `y` and `x`: wanted by all pixels up to the one after the next.
-    of_pixels: BTreeMap<(u32, u32), Seen>,
-    /// Of parts, on the upper edge of the row, by `x`.
-    upper: BTreeMap<u32, Seen>,
-    /// Of parts, on the lower edge of the row, by `x`.
-    lower: BTreeMap<u32, Seen>,
-    /// Of parts, between them, in this pixel and on its edge.
-    inside: BTreeMap<(u32, u32), Seen>,
-}
-
-impl Corners {
-    /// Forgets what is of no use for a pixel and those after it, to the right and below.
-    fn begin(&mut self, x: u32, y: u32) {
-        let same_row = self.pixel.is_some_and(|(_, row)| row == y);
-        if !same_row {
-            let next_row = self.pixel.is_some_and(|(_, row)| row + 1 == y);
-            let lower = core::mem::take(&mut self.lower);
-            self.upper = if next_row { lower } else { BTreeMap::new() };
-            self.of_pixels.retain(|(at, _), _| *at + STEPS >= y * STEPS);
-        }
-        self.inside.retain(|(at, _), _| same_row && *at == x * STEPS);
-        self.pixel = Some((x, y));
-    }
-
-    fn get(&self, x: u32, y: u32) -> Option<Seen> {
-        match self.place(x, y) {
-            Place::OfPixel => self.of_pixels.get(&(y, x)),
-            Place::Upper => self.upper.get(&x),
-            Place::Lower => self.lower.get(&x),
-            Place::Inside => self.inside.get(&(x, y)),
-        }
-        .copied()
-    }
-
-    fn keep(&mut self, x: u32, y: u32, seen: Seen) {
-        match self.place(x, y) {
-            Place::OfPixel => self.of_pixels.insert((y, x), seen),
-            Place::Upper => self.upper.insert(x, seen),
-            Place::Lower => self.lower.insert(x, seen),
-            Place::Inside => self.inside.insert((x, y), seen),
-        };
-    }
-
-    fn place(&self, x: u32, y: u32) -> Place {
-        match self.pixel {
-            _ if (x | y).is_multiple_of(STEPS) => Place::OfPixel,
-            Some((_, row)) if y == row * STEPS => Place::Upper,
-            Some((_, row)) if y == (row + 1) * STEPS => Place::Lower,
-            _ => Place::Inside,
-        }
-    }
-}
-
-enum Place {
-    OfPixel,
-    Upper,
-    Lower,
-    Inside,
-}

@@ -42,9 +42,9 @@ impl Pixels<'_, ()> {
                 let (pixel, i) = (ray / each, ray % each);
                 let (x, y) = (region.x + pixel % region.width, region.y + pixel / region.width);
                 let (px, py) = in_grid(n, x, y, i);
-                (px, py, Key::of_pixel(x, y, i))
+                (px, py, spacing, Key::of_pixel(x, y, i))
             };
-            self.trace(rays.map(point), spacing);
+            self.trace(rays.map(point));
         }
         lights.extend(self.brought.chunks_exact(each as usize).map(|rays| {
             let mut sum = Rgb::ZERO;

@@ -3,11 +3,13 @@
 //! A pixel is a pure function of the snapshot and its coordinates, so neither the number of threads nor the size or
 //! order of tiles nor the region can change a bit of it.
 
+mod ahead;
 mod antialias;
 mod area;
 mod arrive;
 mod block;
 mod budget;
+mod corners;
 mod counts;
 mod footprint;
 mod interior;

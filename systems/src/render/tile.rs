@@ -156,6 +156,7 @@ fn draw(snapshot: &Snapshot, region: Region, options: &Options<'_>) -> (Tile, Co
     let mut counts = Counts::default();
     let observer = &mut ();
     let mut drawing = Pixels::new(snapshot, &options.methods, &mut counts, observer);
+    drawing.ahead = Some(region);
     let (edge, width) = (drawing.edge(), region.width as usize);
     let mut lights = vec![];
     let mut rows = 0;

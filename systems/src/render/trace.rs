@@ -58,6 +58,7 @@ pub(super) struct Pending<B> {
 }
 
 /// What comes back along a ray.
+#[derive(Clone, Copy)]
 pub(super) struct Brought {
     pub light: Rgb,
     /// The object it meets first.
