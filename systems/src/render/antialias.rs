@@ -52,11 +52,10 @@ pub(super) struct Seen {
     pub(super) number: u32,
 }
 
-/// Where the `i`th of `n` by `n` rays goes through a pixel.
-pub(super) fn in_grid(n: u32, x: u32, y: u32, i: u32) -> (f64, f64) {
+/// Where the `i`th of `n` by `n` rays goes through a pixel, from its middle.
+pub(super) fn in_pixel(n: u32, i: u32) -> (f64, f64) {
     let place = |i: u32| (f64::from(i) + 0.5) / f64::from(n) - 0.5;
-    let (dx, dy) = (place(i / n), place(i % n));
-    (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy)
+    (place(i / n), place(i % n))
 }
 
 /// Steps of the lattice of corners in a pixel: the middle of the smallest part lies on it.
@@ -114,7 +113,8 @@ impl<'a, O: Observer> Pixels<'a, O> {
         let share = 1.0 / f64::from(n * n);
         let mut sum = Rgb::ZERO;
         for i in 0..n * n {
-            let (px, py) = in_grid(n, x, y, i);
+            let (dx, dy) = in_pixel(n, i);
+            let (px, py) = (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy);
             let seen = self.through(px, py, 1.0 / f64::from(n), Key::of_pixel(x, y, i));
             self.add(&seen, share, &mut sum);
         }

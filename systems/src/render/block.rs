@@ -2,8 +2,9 @@
 
 use super::{
     Key, Region,
-    antialias::{Pixels, in_grid},
+    antialias::{Pixels, in_pixel},
 };
+use smallvec::SmallVec;
 use snell_components::{color::Rgb, packet::PACKET, settings::Antialias};
 
 impl Pixels<'_, ()> {
@@ -36,15 +37,22 @@ impl Pixels<'_, ()> {
         let (each, share, spacing) = (n * n, 1.0 / f64::from(n * n), 1.0 / f64::from(n));
         self.brought.clear();
         let count = region.width * region.height * each;
+        let places: SmallVec<[(f64, f64); 4]> = (0..each).map(|i| in_pixel(n, i)).collect();
+        let (mut x, mut y, mut i) = (region.x, region.y, 0);
         for first in (0..count).step_by(PACKET) {
-            let rays = first..count.min(first + PACKET as u32);
-            let point = |ray: u32| {
-                let (pixel, i) = (ray / each, ray % each);
-                let (x, y) = (region.x + pixel % region.width, region.y + pixel / region.width);
-                let (px, py) = in_grid(n, x, y, i);
-                (px, py, spacing, Key::of_pixel(x, y, i))
+            let next = |_| {
+                let (dx, dy) = places[i as usize];
+                let point = (f64::from(x) + 0.5 + dx, f64::from(y) + 0.5 + dy, spacing, Key::of_pixel(x, y, i));
+                i += 1;
+                if i == each {
+                    (x, i) = (x + 1, 0);
+                }
+                if x == region.x + region.width {
+                    (x, y) = (region.x, y + 1);
+                }
+                point
             };
-            self.trace(rays.map(point));
+            self.trace((first..count.min(first + PACKET as u32)).map(next));
         }
         lights.extend(self.brought.chunks_exact(each as usize).map(|rays| {
             let mut sum = Rgb::ZERO;
