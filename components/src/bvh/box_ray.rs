@@ -48,9 +48,9 @@ fn planes<L: Lanes>(l: L, origin: L::D, direction: L::D, reach: L::D) -> [[f32; 
 /// Rays prepared for box tests; see [`planes`].
 pub(crate) struct BoxRays {
     /// By axis: origins and inverse directions for near planes, then for far ones.
-    planes: [[[f32; PACKET]; 4]; 3],
+    pub(super) planes: [[[f32; PACKET]; 4]; 3],
     /// The rays that run backward along each axis.
-    negative: [Mask; 3],
+    pub(super) negative: [Mask; 3],
 }
 
 impl BoxRays {

@@ -6,6 +6,7 @@
 //! Boxes are `f32`, rounded outward, and the traversal's own rounding is bounded on the safe side, so a walk visits
 //! every leaf whose contents an exact test would hit: the tree can cost time, never change a picture.
 
+mod beam;
 mod bins;
 mod blocks;
 mod box_ray;

@@ -5,6 +5,7 @@
 
 use super::{
     Blocks, Bvh, Child, Node, WIDTH,
+    beam::Beam,
     box_ray::{BoxRay, BoxRays, FARTHEST, above},
     traverse::Leaf,
 };
@@ -81,6 +82,51 @@ fn reaching<L: Lanes>(l: L, limits: &Limits, distance: f32, rays: Mask) -> Mask 
     rays & reach
 }
 
+/// From so many rays on a beam around them tells which children are worth a test against the rays, eight at a time; else
+/// each ray is tested against all children.
+const MANY: u32 = 12;
+
+/// How many groups of eight hold some rays.
+#[inline(always)]
+fn eights(rays: Mask) -> u32 {
+    let rays = rays | rays >> 4;
+    let rays = rays | rays >> 2;
+    ((rays | rays >> 1) & 0x0101_0101_0101_0101).count_ones()
+}
+
+/// Puts a child aside, and the rays that come to it: farthest first above `base`, if the nearest is to come first.
+#[inline(always)]
+fn put_aside<L: Lanes, V: PacketVisitor>(
+    l: L,
+    nodes: &[Node],
+    child: Child,
+    distance: f32,
+    come: Mask,
+    base: usize,
+    stack: &mut Stack<'_, ROOM>,
+    visitor: &V,
+) {
+    // Nearly all that is put aside will be visited by some ray.
+    if child.is_leaf() {
+        visitor.soon(l, child.leaf_run());
+    } else if let Some(node) = nodes.get(child.0 as usize) {
+        l.prefetch(node);
+    }
+    let key = u64::from(distance.to_bits()) << 32 | u64::from(child.0);
+    stack.push(come);
+    stack.push(key);
+    if !V::ANY {
+        // The last is next.
+        let new = stack.since(base);
+        let mut at = new.len() - 2;
+        while at > 0 && new[at - 1] < key {
+            (new[at], new[at + 1]) = (new[at - 2], new[at - 1]);
+            at -= 2;
+        }
+        (new[at], new[at + 1]) = (come, key);
+    }
+}
+
 /// Visits the leaves along the rays, until nothing is left within their limits.
 #[inline(always)]
 fn walk<L: Lanes, V: PacketVisitor>(
@@ -95,6 +141,7 @@ fn walk<L: Lanes, V: PacketVisitor>(
     if nodes.is_empty() || rays == 0 {
         return;
     }
+    let beam = if rays.count_ones() >= MANY { Beam::around(l, boxes, rays) } else { None };
     let mut room = Room::<ROOM>::new();
     let mut stack = Stack::new(&mut room);
     let (mut child, mut rays) = (Child::node(0), rays);
@@ -104,53 +151,57 @@ fn walk<L: Lanes, V: PacketVisitor>(
         } else {
             let node = &nodes[child.0 as usize];
             cost.nodes += u64::from(rays.count_ones());
-            // Bytes of `entering` are children, their bits eight rays.
-            let mut entering = [0u64; PACKET / 8];
-            let mut distances = l.f_splat(f32::INFINITY);
-            let mut entered = 0;
-            let limits = visitor.limits();
-            for (group, entering) in entering.iter_mut().enumerate() {
-                let mut rest = (rays >> (8 * group)) as u32 & 0xff;
-                while rest != 0 {
-                    let bit = rest.trailing_zeros();
-                    rest &= rest - 1;
-                    let i = 8 * group + bit as usize;
-                    let (near, far) = BoxRay::one_of(l, boxes, i).distances(l, node, limits[i]);
-                    let (least, mask) = l.f_least_of_le(near, far, distances);
-                    distances = least;
-                    entered |= mask;
-                    *entering |= l.spread(mask) << bit;
+            let base = stack.len();
+            let mut by_beam = None;
+            if let (Some(beam), true) = (&beam, rays.count_ones() >= MANY) {
+                let (near, entered) = beam.enter(l, node);
+                // Both ways cost alike for a ray as for a child and eight rays.
+                if entered.count_ones() * eights(rays) <= rays.count_ones() {
+                    by_beam = Some((beam, near, entered));
                 }
             }
-            let mut near = [0.0; WIDTH];
-            l.f_store(distances, &mut near);
-            let base = stack.len();
-            while entered != 0 {
-                let lane = entered.trailing_zeros() as usize % WIDTH;
-                entered &= entered - 1;
-                let mut come = 0;
-                for (group, entering) in entering.iter().enumerate() {
-                    come |= (entering >> (8 * lane) & 0xff) << (8 * group);
-                }
-                let key = u64::from(near[lane].to_bits()) << 32 | u64::from(node.child[lane].0);
-                // Nearly all that is put aside will be visited by some ray.
-                let child = node.child[lane];
-                if child.is_leaf() {
-                    visitor.soon(l, child.leaf_run());
-                } else if let Some(node) = nodes.get(child.0 as usize) {
-                    l.prefetch(node);
-                }
-                stack.push(come);
-                stack.push(key);
-                if !V::ANY {
-                    // Farthest first: the last is next.
-                    let new = stack.since(base);
-                    let mut at = new.len() - 2;
-                    while at > 0 && new[at - 1] < key {
-                        (new[at], new[at + 1]) = (new[at - 2], new[at - 1]);
-                        at -= 2;
+            if let Some((beam, near, mut entered)) = by_beam {
+                let mut distances = [0.0; WIDTH];
+                l.f_store(near, &mut distances);
+                while entered != 0 {
+                    let lane = entered.trailing_zeros() as usize % WIDTH;
+                    entered &= entered - 1;
+                    let come = beam.entering(l, boxes, node, lane, visitor.limits(), rays);
+                    if come != 0 {
+                        put_aside(l, nodes, node.child[lane], distances[lane], come, base, &mut stack, visitor);
                     }
-                    (new[at], new[at + 1]) = (come, key);
+                }
+            } else {
+                // Bytes of `entering` are children, their bits eight rays.
+                let mut entering = [0u64; PACKET / 8];
+                let mut distances = l.f_splat(f32::INFINITY);
+                let mut entered = 0;
+                let limits = visitor.limits();
+                for (group, entering) in entering.iter_mut().enumerate() {
+                    let mut rest = (rays >> (8 * group)) as u32 & 0xff;
+                    let mut of_group = 0;
+                    while rest != 0 {
+                        let bit = rest.trailing_zeros();
+                        rest &= rest - 1;
+                        let i = 8 * group + bit as usize;
+                        let (near, far) = BoxRay::one_of(l, boxes, i).distances(l, node, limits[i]);
+                        let (least, mask) = l.f_least_of_le(near, far, distances);
+                        distances = least;
+                        entered |= mask;
+                        of_group |= l.spread(mask) << bit;
+                    }
+                    *entering = of_group;
+                }
+                let mut near = [0.0; WIDTH];
+                l.f_store(distances, &mut near);
+                while entered != 0 {
+                    let lane = entered.trailing_zeros() as usize % WIDTH;
+                    entered &= entered - 1;
+                    let mut come = 0;
+                    for (group, entering) in entering.iter().enumerate() {
+                        come |= (entering >> (8 * lane) & 0xff) << (8 * group);
+                    }
+                    put_aside(l, nodes, node.child[lane], near[lane], come, base, &mut stack, visitor);
                 }
             }
         }

@@ -130,6 +130,8 @@ pub trait Lanes: Copy {
     fn f_le(self, a: Self::F, b: Self::F) -> u32;
     /// Where `a <= b`, the minimum of `a` and `c`; elsewhere `c`. Also tells where that is.
     fn f_least_of_le(self, a: Self::F, b: Self::F, c: Self::F) -> (Self::F, u32);
+    /// The lanes of a mask of `a`, the others of `b`.
+    fn f_select(self, which: u32, a: Self::F, b: Self::F) -> Self::F;
     /// A hint that something will be read soon.
     fn prefetch<T>(self, soon: &T);
     /// The lowest eight bits, each in a byte of its own: the lowest in the lowest byte.
@@ -214,6 +216,7 @@ mod tests {
                 l.f_mul(a32, b32),
                 l.f_min(a32, b32),
                 l.f_max(a32, b32),
+                l.f_select(self.0[0][1].to_bits() as u32 & 255, a32, b32),
                 l.f_splat(self.1[1][7]),
                 least,
             ] {

@@ -54,6 +54,10 @@ impl Lanes for Portable {
         (from_fn(|i| if a[i] <= b[i] && a[i] < c[i] { a[i] } else { c[i] }), self.f_le(a, b))
     }
     #[inline(always)]
+    fn f_select(self, which: u32, a: [f32; 8], b: [f32; 8]) -> [f32; 8] {
+        from_fn(|i| if which >> i & 1 != 0 { a[i] } else { b[i] })
+    }
+    #[inline(always)]
     fn prefetch<T>(self, _: &T) {}
     #[inline(always)]
     fn spread(self, bits: u32) -> u64 {

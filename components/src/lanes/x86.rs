@@ -129,6 +129,11 @@ const MASKS: [[i64; 4]; 16] = {
 impl Lanes for Avx2 {
     common!();
 
+    op!(f_select(which: u32, a: __m256, b: __m256) -> __m256 = {
+        let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+        let of_lane = _mm256_and_si256(_mm256_set1_epi32(which as i32), bits);
+        _mm256_blendv_ps(b, a, _mm256_castsi256_ps(_mm256_cmpeq_epi32(of_lane, bits)))
+    });
     op!(d_select(which: u32, a: __m256d, b: __m256d) -> __m256d =
         _mm256_blendv_pd(b, a, _mm256_loadu_pd(MASKS[which as usize & 15].as_ptr().cast())));
     op!(d_store_some(a: __m256d, which: u32, to: &mut [f64; 4]) -> () = {
@@ -151,6 +156,7 @@ impl Lanes for Avx2 {
 impl Lanes for Avx512 {
     common!();
 
+    op!(f_select(which: u32, a: __m256, b: __m256) -> __m256 = _mm256_mask_blend_ps(which as u8, b, a));
     op!(d_select(which: u32, a: __m256d, b: __m256d) -> __m256d = _mm256_mask_blend_pd(which as u8, b, a));
     op!(d_store_some(a: __m256d, which: u32, to: &mut [f64; 4]) -> () =
         _mm256_mask_storeu_pd(to.as_mut_ptr(), which as u8, a));
