@@ -73,18 +73,18 @@ const ROOM: usize = 2 * ((WIDTH - 1) * Bvh::MAX_DEPTH + 1);
 #[inline(always)]
 fn reaching<L: Lanes>(l: L, limits: &Limits, distance: f32, rays: Mask) -> Mask {
     let distance = l.f_splat(distance);
-    let mut reach = 0;
-    for (group, limits) in limits.as_chunks().0.iter().enumerate() {
-        if rays >> (8 * group) & 0xff != 0 {
-            reach |= Mask::from(l.f_le(distance, l.f_load(limits))) << (8 * group);
-        }
+    let (mut reach, mut rest) = (0, rays);
+    while rest != 0 {
+        let group = rest.trailing_zeros() as usize / 8;
+        rest &= !(0xff << (8 * group));
+        reach |= Mask::from(l.f_le(distance, l.f_load(&limits.as_chunks().0[group]))) << (8 * group);
     }
     rays & reach
 }
 
 /// From so many rays on a beam around them tells which children are worth a test against the rays, eight at a time; else
 /// each ray is tested against all children.
-const MANY: u32 = 12;
+const MANY: u32 = 16;
 
 /// How many groups of eight hold some rays.
 #[inline(always)]
@@ -155,8 +155,8 @@ fn walk<L: Lanes, V: PacketVisitor>(
             let mut by_beam = None;
             if let (Some(beam), true) = (&beam, rays.count_ones() >= MANY) {
                 let (near, entered) = beam.enter(l, node);
-                // Both ways cost alike for a ray as for a child and eight rays.
-                if entered.count_ones() * eights(rays) <= rays.count_ones() {
+                // A child and eight rays cost half as much again as a ray and eight children.
+                if 3 * entered.count_ones() * eights(rays) <= 2 * rays.count_ones() {
                     by_beam = Some((beam, near, entered));
                 }
             }
@@ -172,36 +172,28 @@ fn walk<L: Lanes, V: PacketVisitor>(
                     }
                 }
             } else {
-                // Bytes of `entering` are children, their bits eight rays.
-                let mut entering = [0u64; PACKET / 8];
+                let mut entering = l.m_none();
                 let mut distances = l.f_splat(f32::INFINITY);
                 let mut entered = 0;
                 let limits = visitor.limits();
-                for (group, entering) in entering.iter_mut().enumerate() {
-                    let mut rest = (rays >> (8 * group)) as u32 & 0xff;
-                    let mut of_group = 0;
-                    while rest != 0 {
-                        let bit = rest.trailing_zeros();
-                        rest &= rest - 1;
-                        let i = 8 * group + bit as usize;
-                        let (near, far) = BoxRay::one_of(l, boxes, i).distances(l, node, limits[i]);
-                        let (least, mask) = l.f_least_of_le(near, far, distances);
-                        distances = least;
-                        entered |= mask;
-                        of_group |= l.spread(mask) << bit;
-                    }
-                    *entering = of_group;
+                let mut rest = rays;
+                while rest != 0 {
+                    let (i, bit) = (rest.trailing_zeros() as usize, rest & rest.wrapping_neg());
+                    rest ^= bit;
+                    let (near, far) = BoxRay::one_of(l, boxes, i).distances(l, node, limits[i]);
+                    let (least, mask) = l.f_least_of_le(near, far, distances);
+                    distances = least;
+                    entered |= mask;
+                    entering = l.m_set(entering, mask, bit);
                 }
+                let mut come = [0; WIDTH];
+                l.m_store(entering, &mut come);
                 let mut near = [0.0; WIDTH];
                 l.f_store(distances, &mut near);
                 while entered != 0 {
                     let lane = entered.trailing_zeros() as usize % WIDTH;
                     entered &= entered - 1;
-                    let mut come = 0;
-                    for (group, entering) in entering.iter().enumerate() {
-                        come |= (entering >> (8 * lane) & 0xff) << (8 * group);
-                    }
-                    put_aside(l, nodes, node.child[lane], near[lane], come, base, &mut stack, visitor);
+                    put_aside(l, nodes, node.child[lane], near[lane], come[lane], base, &mut stack, visitor);
                 }
             }
         }

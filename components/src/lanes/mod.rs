@@ -119,6 +119,8 @@ pub trait Lanes: Copy {
     type F: Copy;
     /// Four `f64`.
     type D: Copy;
+    /// Eight `u64`.
+    type M: Copy;
 
     fn f_load(self, from: &[f32; 8]) -> Self::F;
     fn f_store(self, a: Self::F, to: &mut [f32; 8]);
@@ -134,8 +136,11 @@ pub trait Lanes: Copy {
     fn f_select(self, which: u32, a: Self::F, b: Self::F) -> Self::F;
     /// A hint that something will be read soon.
     fn prefetch<T>(self, soon: &T);
-    /// The lowest eight bits, each in a byte of its own: the lowest in the lowest byte.
-    fn spread(self, bits: u32) -> u64;
+    /// Eight zeros.
+    fn m_none(self) -> Self::M;
+    /// Sets bits in the lanes of a mask.
+    fn m_set(self, a: Self::M, which: u32, bits: u64) -> Self::M;
+    fn m_store(self, a: Self::M, to: &mut [u64; 8]);
 
     fn d_load(self, from: &[f64; 4]) -> Self::D;
     fn d_store(self, a: Self::D, to: &mut [f64; 4]);
@@ -225,7 +230,10 @@ mod tests {
                 bits.extend(to.map(|x| canonical(f64::from(x))));
             }
             bits.extend([l.d_lt(a, b), l.d_le(a, b), l.d_signs(a), l.f_le(a32, b32), le].map(u64::from));
-            bits.push(l.spread(self.0[0][0].to_bits() as u32 ^ self.0[1][1].to_bits() as u32 >> 3));
+            let mut masks = [0; 8];
+            let set = l.m_set(l.m_none(), self.0[0][0].to_bits() as u32 & 255, self.0[1][1].to_bits());
+            l.m_store(l.m_set(set, le, 5), &mut masks);
+            bits.extend(masks);
             bits
         }
     }

@@ -16,6 +16,7 @@ fn mask<const N: usize>(lane: impl Fn(usize) -> bool) -> u32 {
 impl Lanes for Portable {
     type F = [f32; 8];
     type D = [f64; 4];
+    type M = [u64; 8];
 
     #[inline(always)]
     fn f_load(self, from: &[f32; 8]) -> [f32; 8] {
@@ -60,8 +61,16 @@ impl Lanes for Portable {
     #[inline(always)]
     fn prefetch<T>(self, _: &T) {}
     #[inline(always)]
-    fn spread(self, bits: u32) -> u64 {
-        (0..8).fold(0, |spread, i| spread | u64::from(bits >> i & 1) << (8 * i))
+    fn m_none(self) -> [u64; 8] {
+        [0; 8]
+    }
+    #[inline(always)]
+    fn m_set(self, a: [u64; 8], which: u32, bits: u64) -> [u64; 8] {
+        from_fn(|i| if which >> i & 1 != 0 { a[i] | bits } else { a[i] })
+    }
+    #[inline(always)]
+    fn m_store(self, a: [u64; 8], to: &mut [u64; 8]) {
+        *to = a;
     }
 
     #[inline(always)]

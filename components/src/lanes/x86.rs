@@ -110,7 +110,6 @@ macro_rules! common {
                 unsafe { _mm_prefetch::<_MM_HINT_T0>(at) };
             }
         }
-        op!(spread(bits: u32) -> u64 = _pdep_u64(u64::from(bits), 0x0101_0101_0101_0101));
         op!(d_signs(a: __m256d) -> u32 = _mm256_movemask_pd(a) as u32);
     };
 }
@@ -127,7 +126,21 @@ const MASKS: [[i64; 4]; 16] = {
 };
 
 impl Lanes for Avx2 {
+    type M = [__m256i; 2];
     common!();
+
+    op!(m_none() -> [__m256i; 2] = [_mm256_setzero_si256(); 2]);
+    op!(m_set(a: [__m256i; 2], which: u32, bits: u64) -> [__m256i; 2] = {
+        let (which, bits) = (_mm256_set1_epi64x(i64::from(which)), _mm256_set1_epi64x(bits as i64));
+        let (low, high) = (_mm256_setr_epi64x(1, 2, 4, 8), _mm256_setr_epi64x(16, 32, 64, 128));
+        let low = _mm256_cmpeq_epi64(_mm256_and_si256(which, low), low);
+        let high = _mm256_cmpeq_epi64(_mm256_and_si256(which, high), high);
+        [_mm256_or_si256(a[0], _mm256_and_si256(low, bits)), _mm256_or_si256(a[1], _mm256_and_si256(high, bits))]
+    });
+    op!(m_store(a: [__m256i; 2], to: &mut [u64; 8]) -> () = {
+        _mm256_storeu_si256(to.as_mut_ptr().cast(), a[0]);
+        _mm256_storeu_si256(to[4..].as_mut_ptr().cast(), a[1]);
+    });
 
     op!(f_select(which: u32, a: __m256, b: __m256) -> __m256 = {
         let bits = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
@@ -154,7 +167,13 @@ impl Lanes for Avx2 {
 }
 
 impl Lanes for Avx512 {
+    type M = __m512i;
     common!();
+
+    op!(m_none() -> __m512i = _mm512_setzero_si512());
+    op!(m_set(a: __m512i, which: u32, bits: u64) -> __m512i =
+        _mm512_mask_or_epi64(a, which as u8, a, _mm512_set1_epi64(bits as i64)));
+    op!(m_store(a: __m512i, to: &mut [u64; 8]) -> () = _mm512_storeu_si512(to.as_mut_ptr().cast(), a));
 
     op!(f_select(which: u32, a: __m256, b: __m256) -> __m256 = _mm256_mask_blend_ps(which as u8, b, a));
     op!(d_select(which: u32, a: __m256d, b: __m256d) -> __m256d = _mm256_mask_blend_pd(which as u8, b, a));
