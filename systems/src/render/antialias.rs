@@ -6,6 +6,7 @@ use super::{
     corners::Corners,
     footprint::{Beside, Neighbours},
     observe::Observer,
+    rows::Rows,
     trace::{Brought, Start, light_along},
     wave::Wave,
 };
@@ -30,8 +31,8 @@ pub(super) struct Pixels<'a, O> {
     pub(super) corners: Corners,
     /// What the middles of parts of the pixel at hand bring that will be wanted.
     pub(super) middles: BTreeMap<[u32; 2], Seen>,
-    /// Whether things change between the corners of a pixel, by row and column.
-    changing: BTreeMap<(u32, u32), bool>,
+    /// Whether things change between the corners of a pixel.
+    changing: Rows<bool>,
     /// What is drawn row by row, if that is known: rays that will be wanted are traced together.
     pub(super) ahead: Option<Region>,
     /// Rays traced so far.
@@ -75,7 +76,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
             observer,
             corners: Corners::default(),
             middles: BTreeMap::new(),
-            changing: BTreeMap::new(),
+            changing: Rows::default(),
             ahead: None,
             traced: 0,
             wave: Box::default(),
@@ -92,7 +93,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
             Antialias::Grid => self.grid(settings.grid, x, y),
             Antialias::Adaptive => {
                 self.corners.begin(x, y);
-                self.changing.retain(|(row, _), _| row + 1 >= y);
+                self.changing.forget_above(y.saturating_sub(1));
                 self.look_ahead(x, y);
                 let pixel = Part::pixel(x, y);
                 let mut light = Rgb::ZERO;
@@ -197,11 +198,11 @@ impl<'a, O: Observer> Pixels<'a, O> {
     }
 
     fn changes_in(&mut self, x: u32, y: u32, contrast: f64) -> bool {
-        if let Some(changing) = self.changing.get(&(y, x)) {
-            return *changing;
+        if let Some(changing) = self.changing.get(x, y) {
+            return changing;
         }
         let changing = !self.corners(Part::pixel(x, y)).are_alike(contrast);
-        self.changing.insert((y, x), changing);
+        self.changing.keep(x, y, changing);
         changing
     }
 

@@ -19,6 +19,7 @@ mod onward;
 mod optics;
 mod picture;
 mod point;
+mod rows;
 mod sampler;
 mod shade;
 mod split;
