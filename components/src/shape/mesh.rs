@@ -31,6 +31,11 @@ struct Attribute<const N: usize> {
 }
 
 impl<const N: usize> Attribute<N> {
+    /// Whether all of so many triangles have it.
+    fn is_complete(&self, triangles: usize) -> bool {
+        self.corners.len() == triangles && self.corners.iter().all(|corners| corners[0] != ABSENT)
+    }
+
     #[inline]
     fn of(&self, triangle: u32) -> Option<[[f32; N]; 3]> {
         let [a, b, c] = *self.corners.get(triangle as usize).filter(|corners| corners[0] != ABSENT)?;
@@ -378,6 +383,10 @@ impl PackedMesh {
             return Err(Degenerate("its model has no triangles with an area".into()));
         }
         let tree = mesh.tree();
+        if shading == Shading::Smooth && !mesh.normals.is_complete(mesh.len()) {
+            // Now, not while rays wait for the first of them.
+            mesh.smooth_normals();
+        }
         let bounds = tree.top_boxes().map(|b| b.transformed(world_from_object)).reduce(Bounds::union);
         let object_from_world = world_from_object.inverse();
         let reach = tree.magnitude * norm(&world_from_object.matrix3);
