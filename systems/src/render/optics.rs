@@ -110,7 +110,10 @@ pub(super) fn fresnel_four<L: Lanes>(l: L, cos_in: L::D, eta: L::D) -> L::D {
 mod tests {
     use super::*;
     use core::f64::consts::PI;
-    use snell_components::math;
+    use snell_components::{
+        lanes::{self, Job},
+        math,
+    };
 
     #[test]
     fn fresnel_has_its_known_values() {
@@ -148,6 +151,70 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Mirrored, refracted if at all, and the share reflected, of four rays: as bits, any number that is none alike.
+    struct Together([DVec3; 4], [DVec3; 4], [f64; 4]);
+
+    impl Job for Together {
+        type Output = [(DVec3, Option<DVec3>, f64); 4];
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, l: L) -> Self::Output {
+            let Self(directions, normals, etas) = self;
+            let load = |of: [DVec3; 4]| {
+                let axis = |axis: usize| l.d_load(&of.map(|v| v[axis]));
+                [axis(0), axis(1), axis(2)]
+            };
+            let (direction, normal, eta) = (load(directions), load(normals), l.d_load(&etas));
+            let of = |four: vector::Four<L>, lane: usize| {
+                DVec3::from_array(four.map(|axis| {
+                    let mut numbers = [0.0; 4];
+                    l.d_store(axis, &mut numbers);
+                    numbers[lane]
+                }))
+            };
+            let mirrored = reflect_four(l, direction, normal);
+            let (bends, bent) = refract_four(l, direction, normal, eta);
+            let mut reflected = [0.0; 4];
+            let cosine = vector::minus(l, vector::dot(l, direction, normal));
+            l.d_store(fresnel_four(l, cosine, eta), &mut reflected);
+            core::array::from_fn(|i| (of(mirrored, i), (bends >> i & 1 != 0).then(|| of(bent, i)), reflected[i]))
+        }
+    }
+
+    #[test]
+    fn four_rays_together_come_to_what_each_does_alone() {
+        let canonical = |x: f64| if x.is_nan() { u64::MAX } else { x.to_bits() };
+        let bits = |(mirrored, bent, reflected): (DVec3, Option<DVec3>, f64)| {
+            let bent = bent.map(|bent| bent.to_array().map(canonical));
+            (mirrored.to_array().map(canonical), bent, canonical(reflected))
+        };
+        let etas = [1.0, 1.5, 1.0 / 1.5, 2.4, 1.0 / 1.0001, 1.0001, f64::NAN, 1e9];
+        let (mut bent, mut total) = (0, 0);
+        for n in 0..4000u32 {
+            let [directions, normals] = [3, 5].map(|step| {
+                core::array::from_fn(|i| {
+                    let angle = f64::from(n * step + 97 * i as u32) * 0.09;
+                    let (sin, cos) = math::sin_cos_degrees(angle);
+                    // Some along the axes, grazing, and none at all.
+                    if (n + i as u32).is_multiple_of(191) { DVec3::NAN } else { DVec3::new(sin, -cos, 0.25 * sin) }
+                })
+            });
+            let normals: [DVec3; 4] = normals.map(DVec3::normalize);
+            let directions: [DVec3; 4] = directions.map(DVec3::normalize);
+            let eta = core::array::from_fn(|i| etas[(n as usize / 3 + i) % etas.len()]);
+            let together = lanes::run(Together(directions, normals, eta));
+            for i in 0..4 {
+                let (direction, normal, eta) = (directions[i], normals[i], eta[i]);
+                let alone =
+                    (reflect(direction, normal), refract(direction, normal, eta), fresnel(-direction.dot(normal), eta));
+                bent += u32::from(alone.1.is_some());
+                total += u32::from(alone.1.is_none());
+                assert_eq!(bits(together[i]), bits(alone), "{direction} at {normal}, {eta}");
+            }
+        }
+        assert!(bent > 1000 && total > 1000, "{bent}, {total}");
     }
 
     #[test]
