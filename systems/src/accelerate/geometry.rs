@@ -199,6 +199,7 @@ impl Geometry {
 
     /// Nearest hit with `0 < t <= t_max`; among equally near ones the object first in the order of names.
     #[must_use]
+    #[inline]
     pub fn nearest(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> Option<Nearest> {
         if !ray.is_valid() {
             return None;
@@ -255,6 +256,7 @@ impl Geometry {
 
     /// Whether anything is hit with `0 < t < t_max`.
     #[must_use]
+    #[inline]
     pub fn blocked(&self, ray: &Ray, t_max: f64, with: &Methods, cost: &mut Cost) -> bool {
         if !ray.is_valid() {
             return false;
