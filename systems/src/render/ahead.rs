@@ -1,8 +1,9 @@
 //! Rays of adaptive antialiasing that are sure to be wanted, traced together before they are asked for.
 
 use super::{
-    antialias::{Part, Pixels, STEPS, Seen, ray_through, spacing_at},
+    antialias::{Pixels, STEPS, Seen, ray_through, spacing_at},
     observe::Observer,
+    part::Part,
     trace::Brought,
 };
 use snell_components::{packet::PACKET, settings::Settings};

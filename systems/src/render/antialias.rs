@@ -2,22 +2,21 @@
 
 use super::{
     Counts, Key, Region,
-    budget::variance_for_pixels,
     corners::Corners,
     footprint::{Beside, Neighbours},
     observe::Observer,
+    part::{Four, Part},
     rows::Rows,
     trace::{Brought, Start, light_along},
     wave::Wave,
 };
 use crate::snapshot::Snapshot;
-use glam::DVec2;
 use snell_components::{
     color::Rgb,
     method::Methods,
     settings::{Antialias, MAX_SUBDIVISIONS, Settings},
 };
-use std::collections::{BTreeMap, BinaryHeap};
+use std::collections::BTreeMap;
 
 /// Pixels of one snapshot.
 ///
@@ -124,7 +123,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
 
     /// What a ray through a point of the picture brings, in pixels from its upper left corner; `spacing` is the distance
     /// to the next ray.
-    fn through(&mut self, x: f64, y: f64, spacing: f64, key: Key) -> Seen {
+    pub(super) fn through(&mut self, x: f64, y: f64, spacing: f64, key: Key) -> Seen {
         self.observer.sample();
         let number = self.traced;
         self.brought.clear();
@@ -153,7 +152,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
         self.counts.primary += traced as u64;
     }
 
-    fn add(&mut self, seen: &Seen, share: f64, sum: &mut Rgb) {
+    pub(super) fn add(&mut self, seen: &Seen, share: f64, sum: &mut Rgb) {
         *sum += seen.light * share;
         self.observer.shared(seen.number, share);
     }
@@ -190,7 +189,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
 
     /// Whether things change between the corners of a pixel beside this one: what is thinner than a pixel may miss the
     /// corners here and not those there.
-    fn changes_beside(&mut self, pixel: Part, contrast: f64) -> bool {
+    pub(super) fn changes_beside(&mut self, pixel: Part, contrast: f64) -> bool {
         let Settings { width, height, .. } = self.snapshot.settings;
         let (x, y) = (pixel.x / STEPS, pixel.y / STEPS);
         let around = |at: u32, len: u32| at.saturating_sub(1)..(at + 2).min(len);
@@ -206,114 +205,8 @@ impl<'a, O: Observer> Pixels<'a, O> {
         changing
     }
 
-    /// Adds the light of a pixel, halved where that tells most until the error of the setting is kept; tells whether it
-    /// was halved.
-    ///
-    /// A part with an edge in it has the light of a ray through a random point: the errors of parts are independent, so
-    /// their variances add up. The pixel is done when two standard errors are within what the error leaves.
-    fn add_within_error(&mut self, settings: &Settings, pixel: Part, sum: &mut Rgb) -> bool {
-        let error = settings.error;
-        let first = self.measured(pixel, error, 0);
-        let mut measured = 1;
-        let (mut contrast, mut cut_bound) = (first.contrast, first.cut_bound);
-        let (mut variance, mut edges) = (first.variance, first.edge_area());
-        let mut finest = vec![];
-        let mut parts = BinaryHeap::from([first]);
-        let mut doubted = false;
-        loop {
-            let count = parts.len() + finest.len();
-            let beside = count == 1 && edges == 0.0 && settings.subdivisions > 0;
-            let beside = beside && self.changes_beside(pixel, BESIDE * error);
-            let tangled = edges > TANGLED && count >= 16;
-            if tangled && !doubted {
-                doubted = true;
-                let doubt = |part: Measured| part.doubted(contrast, error);
-                parts = parts.into_vec().into_iter().map(doubt).collect();
-                variance = parts.iter().map(|part| part.variance).sum();
-            }
-            if !beside && variance <= variance_for_pixels(self.snapshot, cut_bound) {
-                break;
-            }
-            let Some(widest) = parts.pop() else {
-                self.counts.unresolved += 1;
-                break;
-            };
-            if widest.part.level == settings.subdivisions {
-                finest.push(widest);
-                continue;
-            }
-            variance -= widest.variance;
-            edges -= widest.edge_area();
-            self.look_at_parts(&widest.part.quarters());
-            for quarter in widest.part.quarters() {
-                let mut quarter = self.measured(quarter, error, measured);
-                if tangled {
-                    quarter = quarter.doubted(contrast, error);
-                }
-                measured += 1;
-                contrast = contrast.max(quarter.contrast);
-                cut_bound = cut_bound.max(quarter.cut_bound);
-                variance += quarter.variance;
-                edges += quarter.edge_area();
-                parts.push(quarter);
-            }
-        }
-        finest.extend(parts.into_sorted_vec());
-        let points: Vec<Option<InPart>> = finest.iter().map(|measured| self.point_in(measured)).collect();
-        let mut terms = vec![];
-        for sharp in [true, false] {
-            terms.clear();
-            for (measured, point) in finest.iter().zip(&points) {
-                measured.terms(point.as_ref(), sharp, &mut terms);
-            }
-            // Differences may lead below zero, where no light is.
-            if terms.iter().map(|(seen, share)| seen.light * *share).sum::<Rgb>().min_element() >= 0.0 {
-                break;
-            }
-        }
-        terms.iter().for_each(|(seen, share)| self.add(seen, *share, sum));
-        finest.len() > 1
-    }
-
     fn add_mean(&mut self, corners: &Four, area: f64, sum: &mut Rgb) {
         corners.0.iter().for_each(|corner| self.add(corner, 0.25 * area, sum));
-    }
-
-    /// Looks at a part as closely as the error asks for.
-    fn measured(&mut self, part: Part, error: f64, number: u32) -> Measured {
-        let corners = self.corners(part);
-        let contrast = corners.contrast();
-        let cut_bound = corners.0.iter().map(|corner| corner.cut_bound).fold(0.0, f64::max);
-        let measured = |off: f64, share: f64, look| {
-            let spread = off * part.area();
-            Measured { part, variance: spread * spread * share, contrast, cut_bound, look, number }
-        };
-        if !corners.same_object() {
-            // Where objects of the same light meet there may be more to see than the corners show.
-            return measured(contrast.max(error), EDGE, Look::Edge(corners));
-        }
-        if contrast <= LITTLE * error {
-            return measured(contrast, UNKNOWN, Look::Plane(corners));
-        }
-        // If the part is halved its middle is a corner of all quarters.
-        let [x, y] = part.middle();
-        let middle = self.corner(x, y);
-        let off = (middle.light - corners.mean()).abs().max_element();
-        if middle.object == corners.0[0].object && off <= contrast * BENT {
-            return measured(off, UNKNOWN, Look::Curved(corners, middle));
-        }
-        measured(contrast.max(off).max(error), UNKNOWN, Look::Edge(corners))
-    }
-
-    /// A random point in a part with an edge.
-    fn point_in(&mut self, measured: &Measured) -> Option<InPart> {
-        let Measured { part, look: Look::Edge(_), .. } = measured else { return None };
-        let [x, y] = part.middle();
-        let key = key(x, y);
-        let (at, size) = (key.child(0).sample(0), f64::from(part.size()));
-        let point = |corner: u32, share: f64| (f64::from(corner) + size * share) / f64::from(STEPS);
-        let seen = self.through(point(part.x, at.x), point(part.y, at.y), size / f64::from(STEPS), key);
-        Some(InPart { at, seen })
     }
 
     pub(super) fn corners(&mut self, part: Part) -> Four {
@@ -321,7 +214,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
     }
 
     /// What a ray through a point of the lattice brings, kept or traced.
-    fn corner(&mut self, x: u32, y: u32) -> Seen {
+    pub(super) fn corner(&mut self, x: u32, y: u32) -> Seen {
         if let Some(seen) = self.corners.get(x, y) {
             return seen;
         }
@@ -349,190 +242,6 @@ pub(super) fn ray_through(x: u32, y: u32, spacing: u32) -> (f64, f64, f64, Key) 
 }
 
 /// The key of a ray through a point of the lattice.
-fn key(x: u32, y: u32) -> Key {
+pub(super) fn key(x: u32, y: u32) -> Key {
     Key::of_pixel(x / STEPS, y / STEPS, (x % STEPS) | ((y % STEPS) * STEPS))
 }
-
-/// Contrast that is not looked into, as a share of the error.
-const LITTLE: f64 = 0.25;
-
-/// Contrast of a pixel that has those beside it halved, as a multiple of the error: what a pixel may miss of it is less
-/// than the half that two corners would show.
-const BESIDE: f64 = 4.0;
-
-/// Share of a pixel in parts with edges above which, at sixteen parts, it is taken to change everywhere: one straight edge
-/// passes through 7 of 16.
-const TANGLED: f64 = 0.5;
-
-/// Mean square by which a random point in a part with an edge is off, as a share of the contrast squared, if what the
-/// corners show is taken off: over straight edges anywhere, 0.071.
-const EDGE: f64 = 1.0 / 12.0;
-
-/// The same if the corners do not show it: the mean of `p·(1 − p)`.
-const UNKNOWN: f64 = 1.0 / 6.0;
-
-/// How far the middle may lie from the plane through the corners, as a share of their contrast, for light without an
-/// edge: an edge puts it off by a quarter or more.
-const BENT: f64 = 0.125;
-
-/// A square part of a pixel: its upper left corner in steps of the lattice, and how often the pixel was halved.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) struct Part {
-    x: u32,
-    y: u32,
-    pub(super) level: u32,
-}
-
-impl Part {
-    fn pixel(x: u32, y: u32) -> Self {
-        Self { x: x * STEPS, y: y * STEPS, level: 0 }
-    }
-
-    pub(super) fn size(self) -> u32 {
-        STEPS >> self.level
-    }
-
-    /// Share of the pixel; a power of two, so that products with it are exact.
-    fn area(self) -> f64 {
-        1.0 / f64::from(1u32 << (2 * self.level))
-    }
-
-    pub(super) fn corners(self) -> [[u32; 2]; 4] {
-        let Self { x, y, .. } = self;
-        let (right, low) = (x + self.size(), y + self.size());
-        [[x, y], [right, y], [x, low], [right, low]]
-    }
-
-    pub(super) fn middle(self) -> [u32; 2] {
-        [self.x + self.size() / 2, self.y + self.size() / 2]
-    }
-
-    pub(super) fn quarters(self) -> [Self; 4] {
-        let [right, low] = self.middle();
-        let level = self.level + 1;
-        [[self.x, self.y], [right, self.y], [self.x, low], [right, low]].map(|[x, y]| Self { x, y, level })
-    }
-}
-
-/// What the corners of a part bring.
-pub(super) struct Four([Seen; 4]);
-
-impl Four {
-    fn same_object(&self) -> bool {
-        self.0.iter().all(|corner| corner.object == self.0[0].object)
-    }
-
-    /// Whether they show one object and differ by no more than this.
-    pub(super) fn are_alike(&self, contrast: f64) -> bool {
-        self.same_object() && self.contrast() <= contrast
-    }
-
-    fn mean(&self) -> Rgb {
-        self.0.iter().fold(Rgb::ZERO, |sum, corner| sum + corner.light) * 0.25
-    }
-
-    /// Largest difference of a channel; infinite if some is not a finite number.
-    fn contrast(&self) -> f64 {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.0[i].light);
-        let contrast = (a.max(b).max(c.max(d)) - a.min(b).min(c.min(d))).max_element();
-        if [a, b, c, d].iter().all(|light| light.is_finite()) { contrast } else { f64::INFINITY }
-    }
-}
-
-/// A part, and how much of the pixel's light is open in it.
-struct Measured {
-    part: Part,
-    /// Mean square by which the pixel's light may be off through this part.
-    variance: f64,
-    /// Of its corners.
-    contrast: f64,
-    /// The most that what was cut behind the corners could have added.
-    cut_bound: f64,
-    look: Look,
-    /// Decides between equal variances.
-    number: u32,
-}
-
-/// How the light of a part goes.
-enum Look {
-    /// Hardly any change.
-    Plane(Four),
-    /// Smoothly, with the middle near the plane through the corners.
-    Curved(Four, Seen),
-    /// Anyhow.
-    Edge(Four),
-}
-
-/// A random point in a part.
-struct InPart {
-    /// Right and down in the part, 0 to 1.
-    at: DVec2,
-    seen: Seen,
-}
-
-impl Measured {
-    /// Its area if there is an edge in it.
-    fn edge_area(&self) -> f64 {
-        if matches!(self.look, Look::Edge(_)) { self.part.area() } else { 0.0 }
-    }
-
-    /// The part in a pixel that changes nearly everywhere: that its corners are alike may be chance, and counts as an edge
-    /// where, with the contrast of others, it could matter.
-    fn doubted(mut self, contrast: f64, error: f64) -> Self {
-        let spread = contrast * self.part.area();
-        if spread > error {
-            self.variance = self.variance.max(spread * spread * EDGE);
-        }
-        self
-    }
-
-    /// What the light of the part is made of; `sharp` takes the point as the difference from what the corners show at its
-    /// place, which is nearer to the truth than the point alone.
-    fn terms(&self, point: Option<&InPart>, sharp: bool, terms: &mut Vec<(Seen, f64)>) {
-        let area = self.part.area();
-        let mut mean = |corners: &Four, share: f64| terms.extend(corners.0.map(|corner| (corner, 0.25 * share)));
-        match (&self.look, point) {
-            (Look::Plane(corners), _) => mean(corners, area),
-            (Look::Curved(corners, middle), _) => {
-                // Exact for polynomials of the second degree.
-                mean(corners, area / 3.0);
-                terms.push((*middle, area * 2.0 / 3.0));
-            }
-            (Look::Edge(corners), Some(InPart { at, seen })) => {
-                if sharp && corners.contrast().is_finite() {
-                    let across = [1.0 - at.x, at.x];
-                    let shares = [(1.0 - at.y), at.y].map(|down| across.map(|across| 0.25 - across * down));
-                    terms.extend(
-                        corners
-                            .0
-                            .into_iter()
-                            .zip(shares.into_iter().flatten())
-                            .map(|(corner, share)| (corner, area * share)),
-                    );
-                }
-                terms.push((*seen, area));
-            }
-            (Look::Edge(_), None) => {}
-        }
-    }
-}
-
-impl Ord for Measured {
-    fn cmp(&self, other: &Self) -> core::cmp::Ordering {
-        self.variance.total_cmp(&other.variance).then(other.number.cmp(&self.number))
-    }
-}
-
-impl PartialOrd for Measured {
-    fn partial_cmp(&self, other: &Self) -> Option<core::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Measured {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Measured {}

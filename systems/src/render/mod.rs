@@ -17,6 +17,7 @@ mod lamps;
 mod observe;
 mod onward;
 mod optics;
+mod part;
 mod picture;
 mod point;
 mod rows;
@@ -27,6 +28,7 @@ mod tile;
 mod trace;
 mod view_rays;
 mod wave;
+mod within_error;
 
 pub use counts::Counts;
 pub use interior::Interior;
