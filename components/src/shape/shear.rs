@@ -295,6 +295,7 @@ fn max<R: Real>(a: R, b: R) -> R {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lanes::{self, Job};
 
     fn frame(origin: DVec3, direction: DVec3) -> RayFrame {
         RayFrame::new(&Ray { origin, direction })
@@ -322,5 +323,44 @@ mod tests {
         assert!(frame(DVec3::new(0.25, 0.25, -1.0), DVec3::NEG_Z).hit(UNIT, f64::INFINITY).is_none());
         assert!(down.hit([DVec3::ZERO, DVec3::ONE, DVec3::splat(2.0)], f64::INFINITY).is_none());
         assert!(down.hit([DVec3::NAN, DVec3::X, DVec3::Y], f64::INFINITY).is_none());
+    }
+
+    /// Whether frames made four at a time are those made one by one, bit for bit.
+    struct Four([DVec3; 4], [DVec3; 4]);
+
+    impl Job for Four {
+        type Output = bool;
+
+        #[inline(always)]
+        fn run<L: Lanes>(self, l: L) -> bool {
+            let Self(origins, directions) = self;
+            let four = |of: [DVec3; 4]| {
+                let along = |axis: usize| l.d_load(&core::array::from_fn(|i| of[i][axis]));
+                [along(0), along(1), along(2)]
+            };
+            let mut frames = RayFrames::new();
+            frames.set(l, 3, four(origins), four(directions));
+            let bits = |f: RayFrame| {
+                let numbers = [f.start[0], f.start[1], f.start[2], f.shear_x, f.shear_y, f.scale_z];
+                ([f.kx, f.ky, f.kz], numbers.map(f64::to_bits))
+            };
+            (0..4).all(|i| bits(frames.one(12 + i)) == bits(frame(origins[i], directions[i])))
+        }
+    }
+
+    #[test]
+    fn frames_of_four_rays_are_those_of_each_with_ties_of_axes_too() {
+        let coordinates = [-2.0, -1.0, -0.0, 0.0, 0.3, 1.0];
+        let mut directions = vec![];
+        for x in coordinates {
+            for y in coordinates {
+                directions.extend(coordinates.map(|z| DVec3::new(x, y, z)).into_iter().filter(|d| *d != DVec3::ZERO));
+            }
+        }
+        let origin = |i: usize| DVec3::new(1.0 / (i + 1) as f64, -0.7, i as f64);
+        for i in 0..directions.len() {
+            let four = [0, 1, 2, 3].map(|lane| directions[(i + 5 * lane) % directions.len()]);
+            assert!(lanes::run(Four([0, 1, 2, 3].map(|lane| origin(i + lane)), four)), "{four:?}");
+        }
     }
 }
