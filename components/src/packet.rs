@@ -50,9 +50,9 @@ pub fn each(mut mask: Mask) -> impl Iterator<Item = usize> {
 #[derive(Clone, Debug)]
 #[repr(align(64))]
 pub struct Packet {
-    /// World space.
+    /// World space. Whoever writes here says so by [`Packet::check`].
     pub origins: Vectors,
-    /// World space, of any length but zero.
+    /// World space, of any length but zero. Whoever writes here says so by [`Packet::check`].
     pub directions: Vectors,
     len: usize,
     valid: Mask,
@@ -82,7 +82,7 @@ impl Packet {
         i
     }
 
-    /// Sets a ray where it stands.
+    /// Sets a ray where it stands; that does not count as [adding](Self::push) one.
     ///
     /// # Panics
     /// If its number is [`PACKET`] or more.

@@ -83,9 +83,10 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
         DVec3::ZERO
     }
 
-    /// [`Primitive::surface`] and [`Primitive::lift`] for rays of a packet that met some of these shapes; texture
-    /// coordinates only where they are asked for. By default one after the other; worth writing for shapes that work out
-    /// several at once faster, with the very same bits.
+    /// [`Primitive::surface`] and [`Primitive::lift`] for rays of a packet that met some of these shapes. Texture
+    /// coordinates may be anything where they are not asked for, and the lift is nothing where there is none; what stands
+    /// for other rays stays as it is. By default one after the other; worth writing for shapes that work out several at
+    /// once faster, with the very same bits.
     fn surface_packet(shapes: &[Self::Packed], met: &Meeting<'_>, surfaces: &mut Surfaces) {
         for i in packet::each(met.rays) {
             let (ray, shape, hit) = met.of(i);

@@ -222,7 +222,9 @@ impl Material {
     #[inline]
     pub fn alone_goes_on(&self) -> Option<&Effect> {
         match &*self.effects {
-            [alone] | [.., Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. }, alone] => Some(alone),
+            [alone] | [.., Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. }, alone] => {
+                (!alone.is_light()).then_some(alone)
+            }
             _ => None,
         }
     }

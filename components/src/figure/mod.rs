@@ -18,9 +18,11 @@ pub use triangle_field::{Arrangement, TriangleField};
 use crate::{
     describe::Describe,
     method::Methods,
+    packet::{Hits, Mask, Packet, PerRay},
     primitive::{Cost, Degenerate, Extent, Hit, Primitive, Surface},
     shape::{Mesh, MeshError, PackedMesh, Shading, TriangleMesh},
     space::{BoundingSphere, Bounds, Ray},
+    surfaces::{Meeting, Surfaces},
 };
 use bevy_ecs::{component::Mutable, prelude::*};
 use glam::{DAffine3, DVec3};
@@ -66,6 +68,25 @@ impl<F: Figure> Primitive for F {
     #[inline]
     fn blocks(packed: &PackedMesh, ray: &Ray, t_max: f64, cost: &mut Cost) -> bool {
         Mesh::blocks(packed, ray, t_max, cost)
+    }
+
+    fn hit_packet(
+        packed: &PackedMesh,
+        packet: &Packet,
+        rays: Mask,
+        t_max: &PerRay,
+        hits: &mut Hits,
+        cost: &mut Cost,
+    ) -> Mask {
+        Mesh::hit_packet(packed, packet, rays, t_max, hits, cost)
+    }
+
+    fn blocks_packet(packed: &PackedMesh, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
+        Mesh::blocks_packet(packed, packet, rays, t_max, cost)
+    }
+
+    fn surface_packet(meshes: &[PackedMesh], met: &Meeting<'_>, surfaces: &mut Surfaces) {
+        Mesh::surface_packet(meshes, met, surfaces);
     }
 
     fn surface(packed: &PackedMesh, ray: &Ray, hit: Hit) -> Surface {

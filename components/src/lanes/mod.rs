@@ -33,7 +33,7 @@ impl Level {
     /// All levels, lowest first.
     pub const ALL: [Self; 3] = [Self::Baseline, Self::Avx2, Self::Avx512];
 
-    /// The level that walks use: the highest the machine has, unless another was chosen.
+    /// The level in use: the highest the machine has, unless another was chosen.
     #[must_use]
     #[inline]
     pub fn current() -> Self {
@@ -67,7 +67,7 @@ impl Level {
         }
     }
 
-    /// Makes every walk from now on use this level, or the baseline where the machine does not have it: for tests that
+    /// Makes all work from now on use this level, or the baseline where the machine does not have it: for tests that
     /// compare levels.
     pub fn choose(self) {
         let level = if self.is_available() { self } else { Self::Baseline };
@@ -109,12 +109,17 @@ fn run_portable<J: Job>(job: J) -> J::Output {
     job.run(Portable)
 }
 
+/// Lanes are those of the levels, and of no other crate: an operation may be added.
+mod sealed {
+    pub trait Sealed {}
+}
+
 /// Eight `f32` or four `f64` at once.
 ///
 /// Minimum and maximum give the second argument on equality and for NaN: `if a < b { a } else { b }`. Comparisons give a
 /// bit per lane, the lowest for the first.
 #[expect(missing_docs, reason = "the operations are those of their names, on every lane")]
-pub trait Lanes: Copy {
+pub trait Lanes: Copy + sealed::Sealed {
     /// Eight `f32`.
     type F: Copy;
     /// Four `f64`.

@@ -13,6 +13,8 @@ fn mask<const N: usize>(lane: impl Fn(usize) -> bool) -> u32 {
     (0..N).fold(0, |mask, i| mask | u32::from(lane(i)) << i)
 }
 
+impl super::sealed::Sealed for Portable {}
+
 impl Lanes for Portable {
     type F = [f32; 8];
     type D = [f64; 4];

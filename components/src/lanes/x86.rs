@@ -125,6 +125,9 @@ const MASKS: [[i64; 4]; 16] = {
     masks
 };
 
+impl super::sealed::Sealed for Avx2 {}
+impl super::sealed::Sealed for Avx512 {}
+
 impl Lanes for Avx2 {
     type M = [__m256i; 2];
     common!();

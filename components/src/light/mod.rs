@@ -34,7 +34,8 @@ pub trait Lamp: Send + Sync + 'static {
     /// that part does not shine. Lamps without area ignore `sample`.
     fn illuminate(&self, point: DVec3, sample: DVec2) -> Option<Illumination>;
 
-    /// The light itself if it is a point light in the world: the render then asks that, without a call for every look.
+    /// The light itself if it is a point light in the world: the render then asks that, without a call for every look. None
+    /// for lamps that are sampled.
     fn as_point(&self) -> Option<&PointLight> {
         None
     }

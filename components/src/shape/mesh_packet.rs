@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     bvh::{BLOCK, BoxRays, FARTHEST, Leaf, Limits, PacketVisitor, above, four_surely_reach, reaches},
-    lanes::{self, Job, Lanes, Level, vector},
+    lanes::{self, Job, Lanes, vector},
     packet::{self, Hits, Mask, PACKET, Packet, PerRay, Vectors},
     primitive::Cost,
     space::Ray,
@@ -15,11 +15,6 @@ use glam::DAffine3;
 
 /// Fewer rays than this go one by one: preparing them for the walk together costs more than it saves.
 const FEW: u32 = 3;
-
-/// Whether so many rays are to be walked together: only where lanes have masks, without which that is slower.
-fn go_together(rays: Mask) -> bool {
-    rays.count_ones() >= FEW && Level::current() > Level::Baseline
-}
 
 impl MeshTree {
     /// [`MeshTree::nearest`] for some rays of a packet: tells which hit, and where.
@@ -34,7 +29,7 @@ impl MeshTree {
     ) -> Mask {
         let mut met = 0;
         let mut alone = rays;
-        if go_together(rays) {
+        if rays.count_ones() >= FEW {
             (met, alone) = lanes::run(Nearest { tree: self, to, packet, rays, t_max, hits, cost });
         }
         met | packet::hit_each(alone, hits, |i| self.nearest(to, &packet.ray(i), t_max[i], cost))
@@ -51,7 +46,7 @@ impl MeshTree {
     ) -> Mask {
         let mut blocked = 0;
         let mut alone = rays;
-        if go_together(rays) {
+        if rays.count_ones() >= FEW {
             (blocked, alone) = lanes::run(Blocked { tree: self, to, packet, rays, t_max, cost });
         }
         for i in packet::each(alone) {

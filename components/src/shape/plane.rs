@@ -68,14 +68,14 @@ impl Job for Crossings<'_> {
 }
 
 /// The surface of a plane that some rays met.
-struct Met<'a> {
+struct MetPlane<'a> {
     plane: &'a PackedPlane,
     met: &'a Meeting<'a>,
     rays: Mask,
     surfaces: &'a mut Surfaces,
 }
 
-impl Job for Met<'_> {
+impl Job for MetPlane<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -164,7 +164,7 @@ impl Primitive for Plane {
             let plane = met.shape[rest.trailing_zeros() as usize];
             let rays = rest & met.with(plane);
             rest &= !rays;
-            lanes::run(Met { plane: &planes[plane as usize], met, rays, surfaces });
+            lanes::run(MetPlane { plane: &planes[plane as usize], met, rays, surfaces });
         }
     }
 }

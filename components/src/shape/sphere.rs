@@ -122,17 +122,17 @@ fn nearest_roots<L: Lanes>(
     let fy = l.d_sub(l.d_load(origins[1]), l.d_splat(center.y));
     let fz = l.d_sub(l.d_load(origins[2]), l.d_splat(center.z));
     let (zero, radius) = (l.d_splat(0.0), l.d_splat(radius));
-    let a = dot(l, [x, y, z], [x, y, z]);
+    let a = vector::dot(l, [x, y, z], [x, y, z]);
     // Nothing cancels in a changed sign: −b for b.
-    let minus_b = dot(l, [fx, fy, fz], [x, y, z]);
+    let minus_b = vector::dot(l, [fx, fy, fz], [x, y, z]);
     let step = l.d_div(minus_b, a);
     let foot = [l.d_sub(fx, l.d_mul(x, step)), l.d_sub(fy, l.d_mul(y, step)), l.d_sub(fz, l.d_mul(z, step))];
-    let gap = l.d_sub(l.d_mul(radius, radius), dot(l, foot, foot));
+    let gap = l.d_sub(l.d_mul(radius, radius), vector::dot(l, foot, foot));
     let missed = l.d_lt(gap, zero);
     if missed == 0b1111 {
         return (0, zero);
     }
-    let distance = l.d_sqrt(dot(l, [fx, fy, fz], [fx, fy, fz]));
+    let distance = l.d_sqrt(vector::dot(l, [fx, fy, fz], [fx, fy, fz]));
     let c = l.d_mul(l.d_sub(distance, radius), l.d_add(distance, radius));
     let root = l.d_sqrt(l.d_mul(a, gap));
     let b = l.d_sub(zero, minus_b);
@@ -142,11 +142,6 @@ fn nearest_roots<L: Lanes>(
     let t = l.d_if_lt(zero, near, near, far);
     let hit = l.d_lt(zero, t) & l.d_le(t, l.d_load(t_max)) & l.d_lt(zero, l.d_abs(q));
     (hit & !missed, t)
-}
-
-#[inline(always)]
-fn dot<L: Lanes>(l: L, a: [L::D; 3], b: [L::D; 3]) -> L::D {
-    l.d_add(l.d_add(l.d_mul(a[0], b[0]), l.d_mul(a[1], b[1])), l.d_mul(a[2], b[2]))
 }
 
 /// The test of a ball with some rays of a packet; tells which hit up to `t_max`, and where if that is asked for.

@@ -44,8 +44,8 @@ pub trait Pattern: Send + Sync + core::fmt::Debug + 'static {
     /// The colour there, linear RGB.
     fn color(&self, at: &TexturePoint) -> Rgb;
 
-    /// [`Pattern::color`] for some rays of a packet, where no footprints are worked out. By default one after the other;
-    /// worth writing for patterns that tell several at once faster, with the very same bits.
+    /// [`Pattern::color`] for some rays of a packet, where no footprints are worked out; what stands for other rays stays as
+    /// it is. By default one after the other; worth writing for patterns that tell several at once faster, with the very same bits.
     fn color_packet(&self, surfaces: &Surfaces, rays: Mask, colors: &mut Vectors) {
         for i in each(rays) {
             let uv = DVec2::new(surfaces.uv[0][i], surfaces.uv[1][i]);

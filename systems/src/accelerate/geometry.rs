@@ -165,7 +165,7 @@ impl Geometry {
     }
 
     /// The surfaces at what some rays of a packet met, as [`Geometry::surface`] tells of each; texture coordinates for
-    /// those alone that are `textured`.
+    /// those alone that are `textured`. All of the rays must have found something.
     pub fn surfaces(
         &self,
         packet: &Packet,

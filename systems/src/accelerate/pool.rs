@@ -143,7 +143,7 @@ impl Bests {
         each(rays).filter(|&i| self.object[i] != NOTHING).fold(0, |found, i| found | 1 << i)
     }
 
-    /// The object that a ray found, if it found any.
+    /// The object that a ray found; means nothing for a ray that is not [found](Self::found).
     #[must_use]
     #[inline]
     pub fn object(&self, i: usize) -> u32 {

@@ -1,4 +1,4 @@
-//! Rays of adaptive antialiasing that are sure to be wanted, traced together before they are asked for.
+//! Rays of adaptive antialiasing that will be wanted, nearly all of them, traced together before they are asked for.
 
 use super::{
     antialias::{Pixels, STEPS, Seen, ray_through, spacing_at},
@@ -23,7 +23,9 @@ impl<O: Observer> Pixels<'_, O> {
         }
         let Settings { width, height, .. } = self.snapshot.settings;
         let rows = ROWS.min(region.y + region.height - y);
-        let beside = |at: u32, len: u32, most: u32| (at.saturating_sub(1), (at + len + 1).min(most));
+        // Pixels beside are looked at where a pixel may be halved.
+        let more = u32::from(self.snapshot.settings.subdivisions > 0);
+        let beside = |at: u32, len: u32, most: u32| (at.saturating_sub(more), (at + len + more).min(most));
         let ((left, right), (top, low)) = (beside(x, region.width, width), beside(y, rows, height));
         let mut corners = vec![];
         for square_y in (top..=low).step_by(ROWS as usize) {

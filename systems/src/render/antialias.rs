@@ -3,7 +3,7 @@
 use super::{
     Counts, Key, Region,
     corners::Corners,
-    footprint::{Beside, Neighbours},
+    footprint::neighbours,
     observe::Observer,
     part::{Four, Part},
     rows::Rows,
@@ -139,7 +139,7 @@ impl<'a, O: Observer> Pixels<'a, O> {
         let before = brought.len();
         if snapshot.materials.any_filtered {
             let starts = points.map(|(x, y, spacing, key)| {
-                let beside = Neighbours::start(snapshot, x, y, spacing);
+                let beside = neighbours(snapshot, x, y, spacing);
                 Start { x, y, beside, key }
             });
             light_along(snapshot, starts, methods, wave, counts, *observer, brought);

@@ -27,9 +27,6 @@ pub(super) trait Beside: Copy {
     /// What is known where the ray met a surface.
     type Met: Copy;
 
-    /// Beside the ray through a point of the picture, in pixels; `spacing` is the distance to the next rays, in pixels.
-    fn start(snapshot: &Snapshot, x: f64, y: f64, spacing: f64) -> Self;
-
     /// At the surface that the ray met.
     fn meet(self, point: &Point<'_>, met: &Nearest) -> Self::Met;
 
@@ -45,8 +42,6 @@ impl Beside for () {
 
     type Met = ();
 
-    fn start(_: &Snapshot, _: f64, _: f64, _: f64) -> Self {}
-
     fn meet(self, _: &Point<'_>, _: &Nearest) {}
 
     fn footprint(&(): &(), _: &Surface) -> Footprint {
@@ -59,17 +54,18 @@ impl Beside for () {
 /// The two rays; none where one was lost: it does not reach the tangent plane, or is mirrored where its ray is bent.
 pub(super) type Neighbours = [Option<Ray>; 2];
 
+/// Beside the ray through a point of the picture, in pixels; `spacing` is the distance to the next rays, in pixels.
+pub(super) fn neighbours(snapshot: &Snapshot, x: f64, y: f64, spacing: f64) -> Neighbours {
+    let Snapshot { view, settings, .. } = snapshot;
+    let step = STEP * spacing;
+    [(x + step, y), (x, y + step)].map(|(x, y)| Some(view.ray(x, y, settings.width, settings.height)))
+}
+
 impl Beside for Neighbours {
     const RUNS: bool = true;
 
     /// Directions of the two rays, and the surface where they cross its tangent plane.
     type Met = [Option<(DVec3, Surface)>; 2];
-
-    fn start(snapshot: &Snapshot, x: f64, y: f64, spacing: f64) -> Self {
-        let Snapshot { view, settings, .. } = snapshot;
-        let step = STEP * spacing;
-        [(x + step, y), (x, y + step)].map(|(x, y)| Some(view.ray(x, y, settings.width, settings.height)))
-    }
 
     fn meet(self, point: &Point<'_>, met: &Nearest) -> Self::Met {
         if !point.material.is_filtered() && !point.material.goes_on() {

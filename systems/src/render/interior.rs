@@ -72,8 +72,12 @@ impl<'a> Interiors<'a> {
         let interior = self.get(inside);
         let (sides, across) = (interior.sides(object, entering, materials), interior.across(object, entering));
         let encloses = !across.is_empty();
-        self.others.push(across);
-        let beyond = self.others.len() as u32;
+        // Bodies are crossed to and fro: few interiors are new.
+        let known = core::iter::once(self.camera).chain(&self.others).position(|known| *known == across);
+        let beyond = known.unwrap_or_else(|| {
+            self.others.push(across);
+            self.others.len()
+        }) as u32;
         self.crossings.push(Crossing { inside, object, entering, sides, beyond, encloses });
         self.crossings.len() as u32 - 1
     }

@@ -57,7 +57,7 @@ impl Default for Looks {
 
 /// What came of looks to a lamp.
 #[derive(Clone, Copy)]
-struct Seen {
+struct Lit {
     /// The points that the lamp lights.
     lit: Mask,
     /// Those whose surfaces face it, lit or not.
@@ -93,7 +93,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     }
 
     /// Looks from some points to a lamp without area.
-    fn look(&mut self, lamp: &dyn Lamp, plain: Option<&PointLight>, asking: Mask) -> Seen {
+    fn look(&mut self, lamp: &dyn Lamp, plain: Option<&PointLight>, asking: Mask) -> Lit {
         let Snapshot { geometry, parted, settings, .. } = self.snapshot;
         let mut shining = asking;
         let mut casting = Mask::MAX;
@@ -115,7 +115,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
         }
         let position = plain.map(|plain| plain.position);
         let facing = lanes::run(Facing { wave: self.wave, rays: shining, position });
-        let mut seen = Seen { lit: facing, facing, intensity: plain.map(|plain| plain.intensity), dimmed: 0 };
+        let mut seen = Lit { lit: facing, facing, intensity: plain.map(|plain| plain.intensity), dimmed: 0 };
         let casting = if settings.shadows { casting & facing } else { 0 };
         if casting == 0 {
             return seen;
@@ -139,7 +139,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     }
 
     /// What gets through clear bodies, where any stand in the way.
-    fn see_through(&mut self, seen: &mut Seen, is_point: bool) {
+    fn see_through(&mut self, seen: &mut Lit, is_point: bool) {
         let Some(parted) = &self.snapshot.parted else { return };
         for i in each(seen.lit) {
             let mut visible = Rgb::ONE;
@@ -155,7 +155,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
         }
     }
 
-    fn tell_look(&mut self, i: usize, number: u32, lamp: &dyn Lamp, seen: Seen) {
+    fn tell_look(&mut self, i: usize, number: u32, lamp: &dyn Lamp, seen: Lit) {
         let point = self.wave.point(i, self.snapshot, self.methods);
         let Looks { packet, visible, .. } = &self.wave.light.looks;
         let from = vector_of(&packet.origins, i);
@@ -246,7 +246,7 @@ struct Term<'a> {
     wave: &'a mut Wave,
     rays: Mask,
     asks: &'a Effect,
-    seen: Seen,
+    seen: Lit,
 }
 
 impl Job for Term<'_> {

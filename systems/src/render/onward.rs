@@ -124,6 +124,34 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     }
 }
 
+/// [`Point::bending_normal`] of four rays.
+#[inline(always)]
+pub(super) fn bending_four<L: Lanes>(
+    l: L,
+    direction: vector::Four<L>,
+    normal: vector::Four<L>,
+    shading: vector::Four<L>,
+) -> vector::Four<L> {
+    let toward = l.d_lt(vector::dot(l, shading, direction), l.d_splat(0.0));
+    vector::select(l, toward, shading, normal)
+}
+
+/// [`Point::mirrored`] of four rays.
+#[inline(always)]
+pub(super) fn mirrored_four<L: Lanes>(
+    l: L,
+    direction: vector::Four<L>,
+    normal: vector::Four<L>,
+    bending: vector::Four<L>,
+) -> vector::Four<L> {
+    let mirrored = optics::reflect_four(l, direction, bending);
+    let above = l.d_lt(l.d_splat(0.0), vector::dot(l, mirrored, normal));
+    match above {
+        0b1111 => mirrored,
+        _ => vector::select(l, above, mirrored, optics::reflect_four(l, direction, normal)),
+    }
+}
+
 /// Mirrors the rays of a wave at their surfaces, as [`Point::mirrored`], with a share of their light.
 struct Mirror<'a> {
     wave: &'a mut Wave,
@@ -138,17 +166,12 @@ impl Job for Mirror<'_> {
     fn run<L: Lanes>(self, l: L) {
         let Self { wave, rays, share } = self;
         let Wave { packet, surfaces, bests, weight, .. } = wave;
-        let zero = l.d_splat(0.0);
         for (group, which) in groups(rays) {
             let direction = vector::load(l, &packet.directions, group);
             let normal = vector::load(l, &surfaces.normal, group);
             let shading = vector::load(l, &surfaces.shading_normal, group);
-            let toward = l.d_lt(vector::dot(l, shading, direction), zero);
-            let mut mirrored = optics::reflect_four(l, direction, vector::select(l, toward, shading, normal));
-            let above = l.d_lt(zero, vector::dot(l, mirrored, normal));
-            if above & which != which {
-                mirrored = vector::select(l, above, mirrored, optics::reflect_four(l, direction, normal));
-            }
+            let bending = bending_four(l, direction, normal, shading);
+            let mirrored = mirrored_four(l, direction, normal, bending);
             let origin = departure(l, surfaces, &bests.limit, mirrored, group);
             vector::store(l, origin, which, &mut packet.origins, group);
             vector::store(l, mirrored, which, &mut packet.directions, group);

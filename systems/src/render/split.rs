@@ -4,6 +4,7 @@ use super::{
     footprint::Beside,
     interior::Sides,
     observe::Observer,
+    onward::{bending_four, mirrored_four},
     optics,
     trace::{Pending, Walk},
     wave::{Wave, departure},
@@ -118,15 +119,10 @@ impl Job for SplitFour<'_> {
             let normal = vector::load(l, &surfaces.normal, group);
             let shading = vector::load(l, &surfaces.shading_normal, group);
             let eta = l.d_load(four(&split.eta, group));
-            let toward = l.d_lt(vector::dot(l, shading, direction), zero);
-            let bending = vector::select(l, toward, shading, normal);
+            let bending = bending_four(l, direction, normal, shading);
             let reflected = optics::fresnel_four(l, vector::minus(l, vector::dot(l, direction, bending)), eta);
 
-            let mut mirrored = optics::reflect_four(l, direction, bending);
-            let above = l.d_lt(zero, vector::dot(l, mirrored, normal));
-            if above & which != which {
-                mirrored = vector::select(l, above, mirrored, optics::reflect_four(l, direction, normal));
-            }
+            let mirrored = mirrored_four(l, direction, normal, bending);
             let (mut bends, mut bent) = optics::refract_four(l, direction, bending, eta);
             let below = l.d_lt(vector::dot(l, bent, normal), zero);
             let wrong = bends & which & !below;

@@ -18,8 +18,8 @@ impl Stop {
         Self::default()
     }
 
-    /// Asks the render to stop; it does so within a square of at most eight by eight pixels, and leaves its rows of the
-    /// tile undrawn.
+    /// Asks the render to stop; it does so within a square of at most eight by eight pixels, with adaptive antialiasing
+    /// after a pixel or the corners of eight rows of the tile, and leaves its rows of the tile undrawn.
     pub fn stop(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
