@@ -57,7 +57,7 @@ impl MeshTree {
 }
 
 /// Some rays in the space of a mesh, prepared for its boxes and triangles.
-struct Placed {
+struct RaysInMesh {
     origins: Vectors,
     directions: Vectors,
     frames: RayFrames,
@@ -66,7 +66,7 @@ struct Placed {
     together: Mask,
 }
 
-impl Placed {
+impl RaysInMesh {
     #[inline(always)]
     fn new<L: Lanes>(l: L, to: &DAffine3, packet: &Packet, rays: Mask) -> Self {
         let none = [[0.0; PACKET]; 3];
@@ -134,7 +134,7 @@ impl Job for Nearest<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> (Mask, Mask) {
         let Self { tree, to, packet, rays, t_max, hits, cost } = self;
-        let placed = Placed::new(l, to, packet, rays);
+        let placed = RaysInMesh::new(l, to, packet, rays);
         let together = placed.together;
         hits.t = *t_max;
         hits.part = [NONE; PACKET];
@@ -235,7 +235,7 @@ impl Job for Blocked<'_> {
     #[inline(always)]
     fn run<L: Lanes>(self, l: L) -> (Mask, Mask) {
         let Self { tree, to, packet, rays, t_max, cost } = self;
-        let placed = Placed::new(l, to, packet, rays);
+        let placed = RaysInMesh::new(l, to, packet, rays);
         let together = placed.together;
         let limits = rounded(t_max, together);
         let mut search = AnySearch { tree, placed: &placed, t_max, limits, alive: together };
@@ -246,7 +246,7 @@ impl Job for Blocked<'_> {
 
 struct AnySearch<'a> {
     tree: &'a MeshTree,
-    placed: &'a Placed,
+    placed: &'a RaysInMesh,
     t_max: &'a PerRay,
     limits: Limits,
     /// The rays that are not blocked yet.

@@ -140,9 +140,9 @@ fn weights<L: Lanes>(l: L, direction: vector::Four<L>, vertices: [vector::Four<L
     let scale = l.d_div(l.d_splat(1.0), dz);
     let shear = (l.d_mul(dx, scale), l.d_mul(dy, scale));
     let [a, b, c] = vertices;
-    let a = placed(l, axes, shear, a);
-    let b = placed(l, axes, shear, b);
-    let c = placed(l, axes, shear, c);
+    let a = sheared(l, axes, shear, a);
+    let b = sheared(l, axes, shear, b);
+    let c = sheared(l, axes, shear, c);
     let u = l.d_sub(l.d_mul(c.0, b.1), l.d_mul(c.1, b.0));
     let v = l.d_sub(l.d_mul(a.0, c.1), l.d_mul(a.1, c.0));
     let w = l.d_sub(l.d_mul(b.0, a.1), l.d_mul(b.1, a.0));
@@ -158,7 +158,7 @@ fn weights<L: Lanes>(l: L, direction: vector::Four<L>, vertices: [vector::Four<L
 
 /// Where vertices stand in the sheared frames of rays.
 #[inline(always)]
-fn placed<L: Lanes>(l: L, axes: Axes, (shear_x, shear_y): (L::D, L::D), vertex: vector::Four<L>) -> (L::D, L::D) {
+fn sheared<L: Lanes>(l: L, axes: Axes, (shear_x, shear_y): (L::D, L::D), vertex: vector::Four<L>) -> (L::D, L::D) {
     let [x, y, z] = axes.turn(l, vertex);
     (l.d_sub(x, l.d_mul(shear_x, z)), l.d_sub(y, l.d_mul(shear_y, z)))
 }
