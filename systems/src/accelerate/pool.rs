@@ -137,6 +137,13 @@ impl Bests {
         }
     }
 
+    /// Nothing found yet by some rays, each up to a distance of its own.
+    pub fn begin_within(&mut self, rays: Mask, limits: &PerRay) {
+        for i in each(rays) {
+            (self.limit[i], self.object[i]) = (limits[i], NOTHING);
+        }
+    }
+
     /// Those of some rays that found something.
     #[must_use]
     pub fn found(&self, rays: Mask) -> Mask {

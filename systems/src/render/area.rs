@@ -22,7 +22,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     /// Adds the light of a lamp with an area, by its number, at a point.
     pub(super) fn sample(&mut self, i: usize, number: u32, lamp: &dyn Lamp, sampling: Sampling) {
         let Some(asks) = self.asks(i) else { return };
-        let point = self.wave.point(i, self.snapshot, self.methods);
+        let point = self.wave.point(i, self.snapshot);
         let mut weight = self.wave.weight_of(i);
         if matches!(asks, Effect::Diffuse(_)) {
             weight *= vector_of(&self.wave.light.tint, i);
@@ -78,11 +78,15 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
             if self.wave.enclosed >> i & 1 != 0 {
                 dimmed = rest;
             }
-            let interior = self.interiors.get(self.wave.inside[i]);
+            let (through, inside) = (&mut self.wave.through, self.wave.inside[i]);
             for n in each(dimmed) {
                 let distance = lights[n].map_or(f64::INFINITY, |light| light.distance);
-                let (ray, end) = (packet.ray(n), end[n]);
-                let visible = point.through_clear(&parted.clear, ray, end, distance, interior, self.counts);
+                through.begin(n, &packet.ray(n), end[n], distance, inside);
+            }
+            let (clear, materials) = (&parted.clear, &self.snapshot.materials);
+            through.go(dimmed, clear, materials, self.methods, &mut self.interiors, self.counts);
+            for n in each(dimmed) {
+                let visible = vector_of(&through.visible, n);
                 arriving[n].iter_mut().for_each(|arriving| arriving.weaken(visible));
             }
         }

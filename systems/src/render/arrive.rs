@@ -72,7 +72,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
                 self.wave.first[i] = Some(self.wave.bests.object(i));
             }
             if B::RUNS {
-                let point = self.wave.point(i, self.snapshot, self.methods);
+                let point = self.wave.point(i, self.snapshot);
                 let nearest = self.wave.bests.nearest(i);
                 self.trees[i].met = nearest.map(|nearest| self.trees[i].beside.meet(&point, &nearest));
             }

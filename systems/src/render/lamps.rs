@@ -140,23 +140,24 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
 
     /// What gets through clear bodies, where any stand in the way.
     fn see_through(&mut self, seen: &mut Lit, is_point: bool) {
-        let Some(parted) = &self.snapshot.parted else { return };
+        let Snapshot { parted: Some(parted), materials, .. } = self.snapshot else { return };
+        let Wave { light, through, inside, .. } = &mut *self.wave;
+        let Looks { packet, end, distance, visible, .. } = &mut light.looks;
+        let dimmed = seen.lit & seen.dimmed;
+        for i in each(dimmed) {
+            let distance = if is_point { 1.0 } else { distance[i] };
+            through.begin(i, &packet.ray(i), end[i], distance, inside[i]);
+        }
+        through.go(dimmed, &parted.clear, materials, self.methods, &mut self.interiors, self.counts);
         for i in each(seen.lit) {
-            let mut visible = Rgb::ONE;
-            if seen.dimmed >> i & 1 != 0 {
-                let Looks { packet, end, distance, .. } = &self.wave.light.looks;
-                let (ray, end, distance) = (packet.ray(i), end[i], if is_point { 1.0 } else { distance[i] });
-                let point = self.wave.point(i, self.snapshot, self.methods);
-                let interior = self.interiors.get(self.wave.inside[i]);
-                visible = point.through_clear(&parted.clear, ray, end, distance, interior, self.counts);
-            }
-            set_vector(&mut self.wave.light.looks.visible, i, visible);
-            seen.lit &= !(Mask::from(visible == Rgb::ZERO) << i);
+            let left = if dimmed >> i & 1 != 0 { vector_of(&through.visible, i) } else { Rgb::ONE };
+            set_vector(visible, i, left);
+            seen.lit &= !(Mask::from(left == Rgb::ZERO) << i);
         }
     }
 
     fn tell_look(&mut self, i: usize, number: u32, lamp: &dyn Lamp, seen: Lit) {
-        let point = self.wave.point(i, self.snapshot, self.methods);
+        let point = self.wave.point(i, self.snapshot);
         let Looks { packet, visible, .. } = &self.wave.light.looks;
         let from = vector_of(&packet.origins, i);
         let light = lamp.illuminate(from, DVec2::ZERO);

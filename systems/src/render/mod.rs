@@ -24,6 +24,7 @@ mod rows;
 mod sampler;
 mod shade;
 mod split;
+mod through;
 mod tile;
 mod trace;
 mod view_rays;

@@ -81,7 +81,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
     /// Puts the rays forward that go on from where one ray met a surface; tells whether any is followed.
     pub(super) fn go_on_alone(&mut self, i: usize) -> bool {
         let wave = &*self.wave;
-        let point = wave.point(i, self.snapshot, self.methods);
+        let point = wave.point(i, self.snapshot);
         let (weight, depth, wavelength) = (wave.weight_of(i), wave.depth[i], wave.wavelength[i]);
         let before = wave.inside[i];
         let crossing = (wave.bounding >> i & 1 != 0).then(|| self.interiors.crossing(wave.crossing[i]));

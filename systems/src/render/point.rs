@@ -1,28 +1,19 @@
 //! One point of a surface: what is worked out for its ray alone.
 
-use super::{
-    Counts, Key,
-    interior::{self, Interior, Sides},
-    optics,
-};
-use crate::{
-    accelerate::Geometry,
-    snapshot::{Effect, Material, Snapshot},
-};
+use super::{Key, optics};
+use crate::snapshot::{Effect, Material, Snapshot};
 use glam::DVec3;
 use snell_components::{
     color::Rgb,
     light::Illumination,
     math,
-    method::Methods,
-    primitive::{Cost, OFFSET_ULPS, Surface},
+    primitive::{OFFSET_ULPS, Surface},
     space::Ray,
 };
 
 /// A point to be shaded, its normals turned toward the viewer.
 pub(super) struct Point<'a> {
     pub snapshot: &'a Snapshot,
-    pub methods: &'a Methods,
     /// Unit direction of the ray that came here.
     pub direction: DVec3,
     /// How far the ray went, world units.
@@ -79,73 +70,6 @@ impl Point<'_> {
             return None;
         }
         Some(Arriving { direction, length, cosine, intensity: light.intensity, visible: Rgb::ONE })
-    }
-
-    /// Share of a light that gets through all that is clear on the way along `ray`, up to `rest` of the `distance` to the
-    /// light: every transparent surface weakens it, as do the bodies it goes through. The ray goes straight, even where a
-    /// view ray would bend.
-    #[inline(never)]
-    pub(super) fn through_clear(
-        &self,
-        clear: &Geometry,
-        mut ray: Ray,
-        mut rest: f64,
-        distance: f64,
-        interior: &Interior,
-        counts: &mut Counts,
-    ) -> Rgb {
-        let materials = &self.snapshot.materials;
-        let mut interior = interior.clone();
-        let mut cost = Cost::default();
-        let mut visible = Rgb::ONE;
-        let end = ray.at(distance);
-        let toward = ray.direction;
-        while visible != Rgb::ZERO {
-            let met = clear.nearest(&ray, rest, self.methods, &mut cost);
-            let met = met.filter(|met| met.hit.t < rest);
-            let length = ray.direction.length();
-            if !interior.is_empty() {
-                let t = met.map_or(rest, |met| met.hit.t);
-                visible *= interior::transmittance(interior.medium(materials), t * length);
-            }
-            let Some(met) = met else { break };
-            let surface = clear.surface_without_uv(&met, &ray, self.methods);
-            visible *= self.passes(met.object, &surface, &ray, &mut interior);
-            ray.origin = surface.departure(ray.direction, met.hit.t * length);
-            if rest.is_finite() {
-                // Toward the same end from the new start.
-                ray.direction = end - ray.origin;
-                rest = short_of_the_light(&ray, ray.direction.length(), 1.0);
-                // The step away from the surface may pass the light: turning back would go on for ever.
-                if ray.direction.dot(toward) <= 0.0 {
-                    break;
-                }
-            }
-            counts.shadow += u64::from(visible != Rgb::ZERO);
-        }
-        counts.add(cost);
-        visible
-    }
-
-    /// Share of the light that a surface lets through on a straight way; notes the bodies entered and left.
-    fn passes(&self, object: u32, surface: &Surface, ray: &Ray, interior: &mut Interior) -> Rgb {
-        let materials = &self.snapshot.materials;
-        let cosine = surface.normal.dot(ray.direction) / ray.direction.length();
-        let entering = cosine < 0.0;
-        let mut eta = 1.0;
-        if materials.medium(object).is_some() {
-            let sides = interior.sides(object, entering, materials);
-            *interior = interior.across(object, entering);
-            let Some(Sides { before, after }) = sides else { return Rgb::ONE };
-            eta = straight_eta(before.index, after.index);
-        }
-        materials.at(object, surface.slot).effects.iter().fold(Rgb::ZERO, |sum, effect| {
-            sum + match *effect {
-                Effect::Through(strength) | Effect::Refract(strength) => strength,
-                Effect::Split(part) => part * (1.0 - optics::fresnel(cosine.abs(), eta)),
-                Effect::Ambient(_) | Effect::Diffuse(_) | Effect::Glossy { .. } | Effect::Mirror(_) => Rgb::ZERO,
-            }
-        })
     }
 
     /// The normal by which rays are mirrored and bent: the interpolated one, unless that faces away from the ray, as it

@@ -1,12 +1,11 @@
 //! The rays of some trees at one step of their walk, as a structure of arrays.
 
-use super::{Key, area::Parts, point::Point, shade::Light, split::Split};
+use super::{Key, area::Parts, point::Point, shade::Light, split::Split, through::Through};
 use crate::{accelerate::Bests, snapshot::Snapshot};
 use smallvec::SmallVec;
 use snell_components::{
     color::Rgb,
     lanes::{self, Job, Lanes, vector},
-    method::Methods,
     packet::{Mask, PACKET, Packet, PerRay, Vectors, each, four, groups, set_vector, vector_of},
     primitive::OFFSET_ULPS,
     surfaces::Surfaces,
@@ -48,6 +47,8 @@ pub(super) struct Wave {
     pub light: Light,
     /// Looks from one point to parts of a lamp.
     pub parts: Parts,
+    /// Rays toward a light through what is clear.
+    pub through: Through,
     /// What becomes of rays at clear surfaces.
     pub split: Split,
 }
@@ -73,6 +74,7 @@ impl Default for Wave {
             first: [None; PACKET],
             light: Light::default(),
             parts: Parts::default(),
+            through: Through::default(),
             split: Split::default(),
         }
     }
@@ -97,10 +99,9 @@ impl Wave {
     }
 
     /// Where a ray met a surface, for what is worked out for it alone.
-    pub(super) fn point<'a>(&self, i: usize, snapshot: &'a Snapshot, methods: &'a Methods) -> Point<'a> {
+    pub(super) fn point<'a>(&self, i: usize, snapshot: &'a Snapshot) -> Point<'a> {
         Point {
             snapshot,
-            methods,
             direction: vector_of(&self.packet.directions, i),
             travelled: self.bests.limit[i],
             surface: self.surfaces.get(i),
