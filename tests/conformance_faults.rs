@@ -2,7 +2,7 @@
 
 use snell::{
     components::{
-        packet::{Hits, Mask, PACKET, Packet, PerRay, Vectors, blocked_each, each, hit_each},
+        packet::{Hits, Mask, PACKET, Packet, PerRay, Vectors, each, hit_each, those},
         primitive::surface_alone,
         surfaces::{Meeting, Surfaces},
     },
@@ -154,8 +154,8 @@ impl<const FAULT: u8> Primitive for Broken<FAULT> {
 
     fn blocks_packet(packed: &Packed, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
         match FAULT {
-            PACKET_BLOCKS_AT_END => blocked_each(rays, |i| Self::hit(packed, &packet.ray(i), t_max[i], cost).is_some()),
-            _ => blocked_each(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost)),
+            PACKET_BLOCKS_AT_END => those(rays, |i| Self::hit(packed, &packet.ray(i), t_max[i], cost).is_some()),
+            _ => those(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost)),
         }
     }
 

@@ -220,10 +220,10 @@ pub fn hit_each(rays: Mask, hits: &mut Hits, mut hit: impl FnMut(usize) -> Optio
     met
 }
 
-/// Asks of one ray after the other whether it is blocked; tells which are.
+/// Those of some rays of which something holds; asked of one after the other.
 #[inline]
-pub fn blocked_each(rays: Mask, mut blocked: impl FnMut(usize) -> bool) -> Mask {
-    each(rays).filter(|&i| blocked(i)).fold(0, |mask, i| mask | 1 << i)
+pub fn those(rays: Mask, mut holds: impl FnMut(usize) -> bool) -> Mask {
+    each(rays).filter(|&i| holds(i)).fold(0, |those, i| those | 1 << i)
 }
 
 #[cfg(test)]

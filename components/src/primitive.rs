@@ -62,7 +62,7 @@ pub trait Primitive: Describe + Component<Mutability = Mutable> {
 
     /// `blocks` for some rays of a packet, each with a `t_max` of its own: tells which are blocked.
     fn blocks_packet(packed: &Self::Packed, packet: &Packet, rays: Mask, t_max: &PerRay, cost: &mut Cost) -> Mask {
-        packet::blocked_each(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost))
+        packet::those(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost))
     }
 
     /// The surface at a hit that `hit` returned for this ray; runs once per ray, for the nearest hit only.

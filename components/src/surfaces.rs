@@ -1,7 +1,7 @@
 //! The surfaces that rays of a packet met, as a structure of arrays.
 
 use crate::{
-    packet::{Mask, PACKET, Packet, PerRay, Vectors, each, set_vector, vector_of},
+    packet::{Mask, PACKET, Packet, PerRay, Vectors, set_vector, those, vector_of},
     primitive::{Hit, Surface},
     space::Ray,
 };
@@ -36,7 +36,7 @@ impl Meeting<'_> {
     #[must_use]
     #[inline]
     pub fn with(&self, shape: u32) -> Mask {
-        each(self.rays).filter(|&i| self.shape[i] == shape).fold(0, |rays, i| rays | 1 << i)
+        those(self.rays, |i| self.shape[i] == shape)
     }
 }
 

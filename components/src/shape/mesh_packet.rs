@@ -143,7 +143,7 @@ impl Job for Nearest<'_> {
         tree.tree.walk_packet(l, &placed.boxes, together, cost, &mut search);
         let (mut met, mut alone) = (0, rays & !together);
         let Search { hits, places, .. } = search;
-        let found = packet::each(together).filter(|&i| hits.part[i] != NONE).fold(0, |found, i| found | 1 << i);
+        let found = packet::those(together, |i| hits.part[i] != NONE);
         for (group, which) in packet::groups(found) {
             // As for a ray alone: nearly always what was found last counts.
             let places = &places.as_chunks().0[group];

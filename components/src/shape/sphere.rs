@@ -277,7 +277,7 @@ impl Primitive for Sphere {
                 cost.primitives += u64::from(rays.count_ones());
                 lanes::run(Roots { center, radius, packet, rays, t_max, t: None })
             }
-            _ => packet::blocked_each(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost)),
+            _ => packet::those(rays, |i| Self::blocks(packed, &packet.ray(i), t_max[i], cost)),
         }
     }
 

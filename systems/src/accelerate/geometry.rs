@@ -4,7 +4,7 @@ use super::pool::{Best, Bests, ErasedPool, Nearest, Run};
 use snell_components::{
     bvh::{Box32, Bvh, fits_boxes},
     method::{Accelerator, Methods, Precision},
-    packet::{Mask, Packet, PerRay, each},
+    packet::{Mask, Packet, PerRay, each, those},
     primitive::{Cost, Extent, Hit, Surface},
     space::{BoundingSphere, Ray},
     sphere_tree::SphereTree,
@@ -178,7 +178,7 @@ impl Geometry {
         let mut rest = rays;
         while rest != 0 {
             let of = pool[rest.trailing_zeros() as usize];
-            let mine = each(rest).filter(|&i| pool[i] == of).fold(0, |mine, i| mine | 1 << i);
+            let mine = those(rest, |i| pool[i] == of);
             rest &= !mine;
             let met = Meeting { packet, rays: mine, textured: mine & textured, shape: index, t: limit, part };
             self.pools[of as usize].surfaces(&met, surfaces);
@@ -322,8 +322,7 @@ impl Geometry {
     pub fn blocked_packet(&self, packet: &Packet, rays: Mask, t_max: &PerRay, with: &Methods, cost: &mut Cost) -> Mask {
         let rays = rays & packet.valid();
         let together = self.together(packet, rays, with);
-        let alone = each(rays & !together).filter(|&i| self.blocked(&packet.ray(i), t_max[i], with, cost));
-        let alone = alone.fold(0, |blocked, i| blocked | 1 << i);
+        let alone = those(rays & !together, |i| self.blocked(&packet.ray(i), t_max[i], with, cost));
         if together == 0 {
             return alone;
         }

@@ -2,7 +2,7 @@
 
 use snell_components::{
     method::Methods,
-    packet::{Hits, Mask, PACKET, Packet, PerRay, each},
+    packet::{Hits, Mask, PACKET, Packet, PerRay, each, those},
     primitive::{Cost, Extent, Hit, Primitive, Surface},
     space::{BoundingSphere, Ray},
     surfaces::{Meeting, Surfaces},
@@ -147,7 +147,7 @@ impl Bests {
     /// Those of some rays that found something.
     #[must_use]
     pub fn found(&self, rays: Mask) -> Mask {
-        each(rays).filter(|&i| self.object[i] != NOTHING).fold(0, |found, i| found | 1 << i)
+        those(rays, |i| self.object[i] != NOTHING)
     }
 
     /// The object that a ray found; means nothing for a ray that is not [found](Self::found).

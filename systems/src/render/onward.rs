@@ -16,7 +16,7 @@ use smallvec::SmallVec;
 use snell_components::{
     color::Rgb,
     lanes::{self, Job, Lanes, vector},
-    packet::{Mask, each, groups},
+    packet::{Mask, each, groups, those},
     space::Ray,
 };
 
@@ -34,7 +34,7 @@ impl<B: Beside, O: Observer> Walk<'_, '_, B, O> {
                 Some(Effect::Split(part)) if !O::WATCHES && !B::RUNS && self.snapshot.settings.refraction => {
                     self.split(rays, *part)
                 }
-                _ => each(rays).fold(0, |onward, i| onward | Mask::from(self.go_on_alone(i)) << i),
+                _ => those(rays, |i| self.go_on_alone(i)),
             };
         }
         onward

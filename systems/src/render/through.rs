@@ -14,7 +14,7 @@ use glam::DVec3;
 use snell_components::{
     color::Rgb,
     method::Methods,
-    packet::{Mask, PACKET, Packet, PerRay, Vectors, each, set_vector, vector_of},
+    packet::{Mask, PACKET, Packet, PerRay, Vectors, each, set_vector, those, vector_of},
     primitive::Cost,
     space::Ray,
     surfaces::Surfaces,
@@ -79,7 +79,7 @@ impl Through {
             let Self { packet, rest, bests, surfaces, .. } = self;
             bests.begin_within(rays, rest);
             clear.nearest_packet(packet, rays, methods, bests, &mut cost);
-            let met = each(bests.found(rays)).filter(|&i| bests.limit[i] < rest[i]).fold(0, |met, i| met | 1 << i);
+            let met = those(bests.found(rays), |i| bests.limit[i] < rest[i]);
             clear.surfaces(packet, (met, 0), bests, methods, surfaces);
             for i in each(rays) {
                 if !self.step(i, met >> i & 1 != 0, materials, interiors) {

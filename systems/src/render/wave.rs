@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 use snell_components::{
     color::Rgb,
     lanes::{self, Job, Lanes, vector},
-    packet::{Mask, PACKET, Packet, PerRay, Vectors, each, four, groups, set_vector, vector_of},
+    packet::{Mask, PACKET, Packet, PerRay, Vectors, four, groups, set_vector, those, vector_of},
     primitive::OFFSET_ULPS,
     surfaces::Surfaces,
 };
@@ -117,7 +117,7 @@ impl Wave {
         let mut rest = rays;
         while rest != 0 {
             let material = self.material[rest.trailing_zeros() as usize];
-            let of = each(rest).filter(|&i| self.material[i] == material).fold(0, |of, i| of | 1 << i);
+            let of = those(rest, |i| self.material[i] == material);
             groups.push((material as usize, of));
             rest &= !of;
         }
